@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t least_block = 256;  // items, on average
 constexpr std::size_t most_samples = 1024;
+constexpr std::size_t looked_up = 4096;  // items whose block a thread finds at a time
 
 }  // namespace
 
@@ -31,17 +32,17 @@ void StarLoop::split(unsigned node, unsigned level, std::span<Vec3> samples) {
     split(2 * node + 1, level + 1, samples.subspan(samples.size() / 2));
 }
 
-std::uint32_t StarLoop::block_at(const Vec3& place) const {
+std::uint8_t StarLoop::block_at(const Vec3& place) const {
     unsigned node = 1;
     for (unsigned level = 0; level < levels_; ++level) {
         const Plane& plane = planes_[node];
         node = 2 * node + (place[plane.axis] < plane.at ? 0 : 1);
     }
-    return node - (1U << levels_);
+    return static_cast<std::uint8_t>(node - (1U << levels_));
 }
 
 // False if the items cannot be divided.
-bool StarLoop::divide(std::span<const mesh::VertexId> vertices) {
+bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers) {
     if (vertices.size() < least_split || vertices.size() >> (32 - most_levels) != 0) return false;
     levels_ = 1;
     while (levels_ < most_levels && vertices.size() >> (levels_ + 1) >= least_block) ++levels_;
@@ -57,6 +58,11 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices) {
         block.notes.clear();
         block.settled = 0;
     }
+    block_of_.resize(vertices.size());
+    workers.for_blocks(vertices.size(), looked_up, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t turn = begin; turn < end; ++turn)
+            block_of_[turn] = block_at(complex_.position(vertices[turn]));
+    });
     codes_.resize(std::max(codes_.size(), complex_.vertex_slots()), no_code);
     for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
         const mesh::VertexId v = vertices[turn];
@@ -64,29 +70,47 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices) {
             for (const mesh::VertexId w : vertices) codes_[w] = no_code;
             return false;
         }
-        const std::uint32_t block = block_at(complex_.position(v));
-        codes_[v] = turn << most_levels | block;
-        blocks_[block].turns.push_back(turn);
+        codes_[v] = turn << most_levels | block_of_[turn];
+        blocks_[block_of_[turn]].turns.push_back(turn);
     }
     for (Block& block : blocks_) block.turn = block.turns.empty() ? no_code : block.turns.front();
     marks_.assign(vertices.size(), 0);
     return true;
 }
 
-StarLoop::Offer StarLoop::farthest_behind(std::uint32_t refused) const {
+// The block that is farthest behind, of those in the share if one can be had.
+StarLoop::Offer StarLoop::farthest_behind(Share share, std::uint32_t refused) const {
     Offer offer;
     std::uint32_t least = no_code;
-    for (std::size_t b = 0; b < most_blocks; ++b) {
+    bool own = false;
+    for (std::size_t b = 0; b < std::size_t{1} << levels_; ++b) {
         const std::uint32_t turn = blocks_[b].turn.load(std::memory_order_acquire);
         if (turn == no_code) continue;
         offer.finished = false;
-        if (turn >= least || (refused >> b & 1U) != 0 ||
-            blocks_[b].taken.load(std::memory_order_relaxed))
-            continue;
+        if ((refused >> b & 1U) != 0 || blocks_[b].taken.load(std::memory_order_relaxed)) continue;
+        const bool in_share = (b * share.of >> levels_) == share.part;
+        if (own ? !in_share || turn >= least : !in_share && turn >= least) continue;
         least = turn;
+        own = in_share;
         offer.block = b;
     }
     return offer;
+}
+
+// Late moves first: then nearly all dates are final at once.
+void StarLoop::settle_vertex_dates(std::span<const mesh::VertexId> vertices, Block& block) {
+    StarScratch& scratch = block.scratch;
+    for (auto turn = block.turns.rbegin(); turn != block.turns.rend(); ++turn) {
+        if ((marks_[*turn] & moved) == 0) continue;
+        const mesh::VertexId v = vertices[*turn];
+        std::span<const mesh::VertexId> neighbours = complex_.stored_neighbours(v);
+        if (neighbours.empty()) {  // a star that is too large to be stored
+            complex_.cached_star(v, scratch.star, scratch.walk);
+            complex_.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
+            neighbours = scratch.neighbours;
+        }
+        complex_.settle_vertex_dates(v, neighbours, complex_.clock() + numbers_[*turn]);
+    }
 }
 
 }  // namespace dsc::kernel

@@ -27,9 +27,11 @@ struct StarScratch {
     std::vector<mesh::TetId> star;
     mesh::TetIndex walk;  // for cached_star() and cached_neighbours()
     std::vector<mesh::VertexId> neighbours;
-    Vec3 place = Vec3::Zero();     // the planned place of the vertex,
-    std::vector<float> qualities;  // and the qualities of the star there, in its order
-    mesh::StarCopy copy;           // for the trial of places
+    mesh::VertexId neighbours_of = mesh::none;  // the vertex to which they belong, if they are
+                                                // known
+    Vec3 place = Vec3::Zero();                  // the planned place of the vertex,
+    std::vector<float> qualities;               // and the qualities of the star there, in its order
+    mesh::StarCopy copy;                        // for the trial of places
 };
 
 class StarLoop {
@@ -52,7 +54,7 @@ public:
     /// neither place() nor settle() of other vertices writes.
     template <class Action>
     void run(std::span<const mesh::VertexId> vertices, Workers* workers, Action& action) {
-        if (workers == nullptr || workers->threads() < 2 || !divide(vertices)) {
+        if (workers == nullptr || workers->threads() < 2 || !divide(vertices, *workers)) {
             for (std::uint32_t i = 0; i < vertices.size(); ++i) {
                 prefetch(i, vertices.size(), [&](std::size_t at) { return vertices[at]; });
                 run_one(vertices[i], i, action);
@@ -66,7 +68,13 @@ public:
                 for (const mesh::VertexId v : vertices) loop.codes_[v] = no_code;
             }
         } const forget{*this, vertices};
-        const auto body = [&](std::size_t, std::size_t) { work(vertices, action); };
+        // The calling thread always has the same share, so that most of its data are in its cache.
+        const std::thread::id caller = std::this_thread::get_id();
+        std::atomic<unsigned> helpers{0};
+        const auto body = [&](std::size_t, std::size_t) {
+            const bool helps = std::this_thread::get_id() != caller;
+            work(vertices, {helps ? ++helpers : 0, workers->threads()}, action);
+        };
         for_blocks(workers, workers->threads(), 1, body);
         settle(vertices, *workers, action);
     }
@@ -100,16 +108,20 @@ private:
         void give_back() { taken.store(false, std::memory_order_release); }
     };
 
+    // The blocks that a thread prefers: the part-th of `of` equal parts.
+    struct Share {
+        unsigned part = 0, of = 1;
+    };
     // What a thread that looks for work finds.
     struct Offer {
         std::size_t block = most_blocks;  // most_blocks: none that is not taken or refused
         bool finished = true;             // all items have been processed
     };
 
-    bool divide(std::span<const mesh::VertexId> vertices);
+    bool divide(std::span<const mesh::VertexId> vertices, Workers& workers);
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
-    std::uint32_t block_at(const Vec3& place) const;
-    Offer farthest_behind(std::uint32_t refused) const;
+    std::uint8_t block_at(const Vec3& place) const;
+    Offer farthest_behind(Share share, std::uint32_t refused) const;
 
     // Whether the neighbours that come earlier have been processed.
     bool is_free(const Block& block, std::uint32_t turn) const {
@@ -138,6 +150,7 @@ private:
         const bool ready = action.ready(i);
         if (ready) {
             complex_.cached_star(v, scratch.star, scratch.walk);
+            scratch.neighbours_of = mesh::none;
             if (action.attempt(i, scratch))
                 complex_.move(v, scratch.place, scratch.star, scratch.qualities);
         }
@@ -147,9 +160,10 @@ private:
     // Until all items have been processed. The earliest of the items that are left can always be
     // processed, so threads do not wait for each other without end, and one thread is enough.
     template <class Action>
-    void work(std::span<const mesh::VertexId> vertices, Action& action) {
+    void work(std::span<const mesh::VertexId> vertices, Share share, Action& action) {
         std::uint32_t refused = 0;  // bits of the blocks that were not free
-        for (Offer offer = farthest_behind(0); !offer.finished; offer = farthest_behind(refused)) {
+        for (Offer offer = farthest_behind(share, 0); !offer.finished;
+             offer = farthest_behind(share, refused)) {
             if (offer.block == most_blocks) {
                 refused = 0;
                 std::this_thread::yield();
@@ -184,6 +198,7 @@ private:
                          [&](std::size_t at) { return vertices[block.turns[at]]; });
                 complex_.cached_star(v, scratch.star, scratch.walk);
                 complex_.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
+                scratch.neighbours_of = v;
                 block.prepared = true;
             }
             if (!is_free(block, turn)) break;
@@ -208,7 +223,7 @@ private:
         }
         for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
             if ((marks_[turn] & moved) != 0) {
-                Block& block = blocks_[codes_[vertices[turn]] % most_blocks];
+                Block& block = blocks_[block_of_[turn]];
                 complex_.append_changes(block.changes_of(block.settled++));
             }
             action.settle(turn, (marks_[turn] & attempted) != 0, complex_.clock() + numbers_[turn]);
@@ -217,11 +232,13 @@ private:
                            [this](std::size_t begin, std::size_t end) {
                                complex_.settle_tet_dates(begin, end, numbers_);
                            });
-        workers.for_blocks(most_blocks, 1, [this](std::size_t block, std::size_t) {
-            complex_.settle_vertex_dates(blocks_[block].notes, numbers_);
+        workers.for_blocks(most_blocks, 1, [&](std::size_t block, std::size_t) {
+            settle_vertex_dates(vertices, blocks_[block]);
         });
         complex_.advance_clock(moves);
     }
+
+    void settle_vertex_dates(std::span<const mesh::VertexId> vertices, Block& block);
 
     template <class Action>
     std::uint8_t run_next(Block& block, mesh::VertexId v, std::uint32_t i, Action& action) {
@@ -244,7 +261,8 @@ private:
     std::vector<Vec3> samples_;
     std::vector<std::uint32_t> codes_;  // per vertex: its turn and its block; no_code if it is not
                                         // in the list
-    std::vector<std::uint8_t> marks_;   // per item
+    std::vector<std::uint8_t> block_of_;  // per item
+    std::vector<std::uint8_t> marks_;     // per item
     std::vector<std::uint32_t> numbers_;  // per item: the number of moves up to it
 };
 

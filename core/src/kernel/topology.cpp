@@ -62,6 +62,7 @@ void TopologyStage::mark_event(const Region& region, std::uint64_t step) {
     event_step_.resize(std::max(event_step_.size(), c.vertex_slots()), 0);
     event_birth_.resize(event_step_.size(), 0);
     event_to_.resize(event_step_.size(), 0);
+    last_event_ = std::max(last_event_, step + 1);
     for (const TetId t : region.tets) {
         for (const VertexId v : c.tet(t).v) {
             event_step_[v] = step + 1;
@@ -106,29 +107,36 @@ bool TopologyStage::neck_face(TetId t, unsigned face, mesh::EdgeRing& ring) cons
 void TopologyStage::collect_seeds_of(TetId t, std::uint64_t step, SeedBlock& block) const {
     const mesh::Complex& c = bench_.complex;
     const auto& v = c.tet(t).v;
+    std::array<bool, 4> ready{};
+    for (unsigned i = 0; i < 4; ++i) ready[i] = c.movable(v[i]);
     // Most tets are not at the interface.
-    if (std::count_if(v.begin(), v.end(), [&c](VertexId x) { return c.movable(x); }) < 2) return;
+    if (ready[0] + ready[1] + ready[2] + ready[3] < 2) return;
+    if (last_event_ != 0 && last_event_ - 1 + rest_steps >= step) {
+        for (unsigned i = 0; i < 4; ++i) ready[i] = ready[i] && !recent(v[i], c.label(t), step);
+    }
+    const int count = ready[0] + ready[1] + ready[2] + ready[3];
+    if (count < 2) return;
     const double length = bench_.length_at(v);
     const double limit2 = longest_edge * longest_edge * length * length;
-    std::array<bool, 4> ready{};
-    unsigned count = 0;
-    for (unsigned i = 0; i < 4; ++i) {
-        ready[i] = c.movable(v[i]) && !recent(v[i], c.label(t), step);
-        count += ready[i] ? 1 : 0;
+    std::array<bool, 6> wanted{};
+    for (unsigned k = 0; k < 6; ++k) {
+        const auto& e = mesh::edge_vertices[k];
+        wanted[k] = (ready[e[0]] & ready[e[1]]) != 0 &&
+                    (c.position(v[e[0]]) - c.position(v[e[1]])).squaredNorm() <= limit2;
     }
-    if (count < 2) return;
-    std::array<bool, 4> interface {};
-    for (unsigned f = 0; f < 4; ++f) interface[f] = c.interface_face(t, f);
-    for (const auto& e : mesh::edge_vertices) {
-        if (!ready[e[0]] || !ready[e[1]]) continue;
-        // A quick test for most interface edges: one of the two faces at the edge, opposite the
-        // other vertices, is on the interface.
-        bool seen = false;
-        for (unsigned f = 0; f < 4; ++f) seen = seen || (interface[f] && f != e[0] && f != e[1]);
-        if (seen) continue;
-        if ((c.position(v[e[0]]) - c.position(v[e[1]])).squaredNorm() > limit2) continue;
-        if (!interface_edge(t, v[e[0]], v[e[1]], block.ring))
-            add_seed({v[e[0]], v[e[1]], mesh::none}, block);
+    if (std::find(wanted.begin(), wanted.end(), true) != wanted.end()) {
+        std::array<bool, 4> interface {};
+        for (unsigned f = 0; f < 4; ++f) interface[f] = c.interface_face(t, f);
+        for (unsigned k = 0; k < 6; ++k) {
+            if (!wanted[k]) continue;
+            // A quick test for most interface edges: one of the two faces at the edge, opposite the
+            // other vertices, is on the interface.
+            const auto& e = mesh::edge_vertices[k];
+            const auto& other = mesh::edge_vertices[5 - k];
+            if (interface[other[0]] || interface[other[1]]) continue;
+            if (!interface_edge(t, v[e[0]], v[e[1]], block.ring))
+                add_seed({v[e[0]], v[e[1]], mesh::none}, block);
+        }
     }
     for (unsigned f = 0; f < 4 && count > 2; ++f) {
         const auto& k = mesh::face_vertices[f];
@@ -399,6 +407,8 @@ void TopologyStage::load(StateReader& in) {
     in.list(event_step_);
     in.list(event_birth_);
     in.list(event_to_);
+    last_event_ = 0;
+    for (const std::uint64_t event : event_step_) last_event_ = std::max(last_event_, event);
 }
 
 }  // namespace dsc::kernel

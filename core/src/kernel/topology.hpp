@@ -82,6 +82,7 @@ private:
                                              // it
     std::vector<std::uint32_t> event_birth_;
     std::vector<mesh::Label> event_to_;  // the label that the event gave
+    std::uint64_t last_event_ = 0;       // the largest of event_step_
     std::vector<std::uint32_t> seen_;
     std::uint32_t seen_epoch_ = 0;
     std::vector<VertexId> queue_;

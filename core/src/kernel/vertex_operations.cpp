@@ -74,7 +74,8 @@ Outcome may_smooth(const Workbench& bench, VertexId v, float accept_above) {
 
 Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v,
                        float accept_above, StarScratch& scratch) {
-    complex.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
+    if (scratch.neighbours_of != v)
+        complex.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
     Vec3 mean = Vec3::Zero();
     for (const VertexId w : scratch.neighbours) mean += complex.position(w);
     mean /= static_cast<double>(scratch.neighbours.size());
@@ -94,6 +95,7 @@ Outcome smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
     if (const Outcome o = may_smooth(bench, v, accept_above); o.refused()) return o;
     StarScratch& scratch = bench.smooth.get().laplacian;
     bench.complex.cached_star(v, scratch.star, scratch.walk);
+    scratch.neighbours_of = mesh::none;
     const Outcome o = plan_laplacian(bench.complex, bench.limits, v, accept_above, scratch);
     if (o.refused())
         return bench.remember(v, Workbench::Smoother::laplacian, accept_above, o.reason());

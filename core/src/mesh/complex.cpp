@@ -134,15 +134,11 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
     for (const VertexId w : neighbours) vertices_[w].date = clock_;
 }
 
-void Complex::date_ahead(VertexId v, std::uint32_t date, MoveNotes& notes) {
-    // Moves at a distance of two edges may date the same vertex at the same time; the latest
-    // counts.
+// Several threads may date the same vertex; the latest date counts.
+void Complex::date_at_least(VertexId v, std::uint32_t date) {
     const std::atomic_ref<std::uint32_t> place(vertices_[v].date);
     std::uint32_t before = place.load(std::memory_order_relaxed);
-    while (before < date) {
-        if (!place.compare_exchange_weak(before, date, std::memory_order_relaxed)) continue;
-        if (before <= clock_) notes.vertices.push_back(v);
-        return;
+    while (before < date && !place.compare_exchange_weak(before, date, std::memory_order_relaxed)) {
     }
 }
 
@@ -156,8 +152,14 @@ void Complex::note_ahead(VertexId v, std::span<const TetId> star,
         tet.date = date;
     }
     notes.ends.push_back(static_cast<std::uint32_t>(notes.changed.size()));
-    date_ahead(v, date, notes);
-    for (const VertexId w : neighbours) date_ahead(w, date, notes);
+    // All threads write the same value, so nothing is lost.
+    const auto mark = [this](VertexId w) {
+        const std::atomic_ref<std::uint32_t> place(vertices_[w].date);
+        if (place.load(std::memory_order_relaxed) <= clock_)
+            place.store(clock_ + 1, std::memory_order_relaxed);
+    };
+    mark(v);
+    for (const VertexId w : neighbours) mark(w);
 }
 
 void Complex::settle_tet_dates(std::size_t begin, std::size_t end,
@@ -170,11 +172,10 @@ void Complex::settle_tet_dates(std::size_t begin, std::size_t end,
     }
 }
 
-void Complex::settle_vertex_dates(const MoveNotes& notes, std::span<const std::uint32_t> numbers) {
-    for (const VertexId v : notes.vertices) {
-        std::uint32_t& date = vertices_[v].date;
-        date = clock_ + numbers[date - clock_ - 1];
-    }
+void Complex::settle_vertex_dates(VertexId v, std::span<const VertexId> neighbours,
+                                  std::uint32_t date) {
+    date_at_least(v, date);
+    for (const VertexId w : neighbours) date_at_least(w, date);
 }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {

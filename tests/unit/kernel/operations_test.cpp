@@ -273,6 +273,29 @@ TEST_CASE("collapse of an exactly flat interface vertex keeps the volume; a corn
     CHECK_FALSE(bench.flat(corner));
 }
 
+TEST_CASE("the remembered flatness of a vertex ends when its star changes") {
+    Complex c = test::labelled_meshes().front().complex;
+    Workbench bench(c);
+    prepare(bench);
+    const VertexId v = flat_vertex(c);
+    REQUIRE(v != mesh::none);
+    CHECK(bench.flat(v));
+    CHECK(bench.flat(v));
+    // A little out of the plane.
+    std::vector<TetId> star;
+    c.star(v, star);
+    const Vec3 place = c.position(v);
+    c.move(v, place + Vec3(0.05, 0.0, 0.0), star);
+    CHECK_FALSE(bench.flat(v));
+    // The same vertex, with a rule that permits it.
+    bench.limits.flatness = 0.5;
+    CHECK(bench.flat(v));
+    bench.limits.flatness = repair::default_flatness;
+    CHECK_FALSE(bench.flat(v));
+    c.move(v, place, star);
+    CHECK(bench.flat(v));
+}
+
 TEST_CASE("interface flip of an exactly planar convex quadrilateral") {
     Complex c = test::labelled_meshes().front().complex;
     Workbench bench(c);

@@ -189,6 +189,9 @@ public:
     void cached_star(VertexId v, std::vector<TetId>& out, TetIndex& scratch) const;
     /// The same with a table that belongs to the complex. [step]
     void star(VertexId v, std::vector<TetId>& out) const { cached_star(v, out, places_); }
+    /// The vertices joined to v if they are stored, in ascending birth order; else empty. They stay
+    /// where they are until the star changes. [parallel] as cached_star().
+    std::span<const VertexId> stored_neighbours(VertexId v) const { return stars_.neighbours(v); }
     /// The vertices joined to v, in ascending birth order; `star` are its tets. `scratch` as above.
     /// [parallel] if no two threads ask for the same vertex.
     void cached_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
@@ -231,11 +234,9 @@ public:
     // move() for each, in this order.
     /// What the moves of one block have changed, in the order of their turns.
     struct MoveNotes {
-        std::vector<VertexId> vertices;   // with provisional dates that this block gave first
         std::vector<TetId> changed;       // for the change list
         std::vector<std::uint32_t> ends;  // per move: the size of `changed` after it
         void clear() {
-            vertices.clear();
             changed.clear();
             ends.clear();
         }
@@ -243,20 +244,22 @@ public:
     /// Places the vertex. [parallel] if no other thread uses the star meanwhile.
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
-    /// Notes that it was moved: gives its star provisional dates above the change clock, in the
-    /// order of the turns. [parallel] as place(), with one object of notes per thread.
+    /// Notes that it was moved: gives its tets provisional dates above the change clock, in the
+    /// order of the turns, and its vertices any date above the clock. [parallel] as place(), with
+    /// one object of notes per thread.
     void note_ahead(VertexId v, std::span<const TetId> star, std::span<const VertexId> neighbours,
                     std::uint32_t turn, MoveNotes& notes);
     /// After all moves: continues the change list, in the order of the turns. [step]
     void append_changes(std::span<const TetId> changed) {
         changes_.insert(changes_.end(), changed.begin(), changed.end());
     }
-    /// Then: replaces the provisional dates, those of the tets in a part of the change list and
-    /// those of the vertices. `numbers` has one entry per turn: the number of moves up to it.
-    /// [parallel] for different parts and notes.
+    /// Then: replaces the provisional dates of the tets in a part of the change list. `numbers` has
+    /// one entry per turn: the number of moves up to it. [parallel] for different parts.
     void settle_tet_dates(std::size_t begin, std::size_t end,
                           std::span<const std::uint32_t> numbers);
-    void settle_vertex_dates(const MoveNotes& notes, std::span<const std::uint32_t> numbers);
+    /// And for each move: dates its vertices. `date` is the clock after the move. It is fastest if
+    /// late moves come first. [parallel]
+    void settle_vertex_dates(VertexId v, std::span<const VertexId> neighbours, std::uint32_t date);
     /// At last: advances the clock by the number of moves. [step]
     void advance_clock(std::uint32_t moves) { clock_ += moves; }
     /// Gives tets another label. [step]
@@ -312,7 +315,7 @@ private:
     VertexId allocate_vertex(const Vec3& position);
     TetId allocate_tet();
     void note_change(VertexId v, std::span<const TetId> star);
-    void date_ahead(VertexId v, std::uint32_t date, MoveNotes& notes);
+    void date_at_least(VertexId v, std::uint32_t date);
     void touch(TetId t);
     bool find_relabelled(const Edit& edit);
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
