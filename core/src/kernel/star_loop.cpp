@@ -55,8 +55,6 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
         block.turns.clear();
         block.next = 0;
         block.prepared = false;
-        block.notes.clear();
-        block.settled = 0;
     }
     block_of_.resize(vertices.size());
     workers.for_blocks(vertices.size(), looked_up, [&](std::size_t begin, std::size_t end) {
@@ -88,29 +86,13 @@ StarLoop::Offer StarLoop::farthest_behind(Share share, std::uint32_t refused) co
         if (turn == no_code) continue;
         offer.finished = false;
         if ((refused >> b & 1U) != 0 || blocks_[b].taken.load(std::memory_order_relaxed)) continue;
-        const bool in_share = (b * share.of >> levels_) == share.part;
+        const bool in_share = is_in(share, b);
         if (own ? !in_share || turn >= least : !in_share && turn >= least) continue;
         least = turn;
         own = in_share;
         offer.block = b;
     }
     return offer;
-}
-
-// Late moves first: then nearly all dates are final at once.
-void StarLoop::settle_vertex_dates(std::span<const mesh::VertexId> vertices, Block& block) {
-    StarScratch& scratch = block.scratch;
-    for (auto turn = block.turns.rbegin(); turn != block.turns.rend(); ++turn) {
-        if ((marks_[*turn] & moved) == 0) continue;
-        const mesh::VertexId v = vertices[*turn];
-        std::span<const mesh::VertexId> neighbours = complex_.stored_neighbours(v);
-        if (neighbours.empty()) {  // a star that is too large to be stored
-            complex_.cached_star(v, scratch.star, scratch.walk);
-            complex_.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
-            neighbours = scratch.neighbours;
-        }
-        complex_.settle_vertex_dates(v, neighbours, complex_.clock() + numbers_[*turn]);
-    }
 }
 
 }  // namespace dsc::kernel

@@ -6,8 +6,8 @@
 // order of the list, until it comes to a vertex with a neighbour in another block that is earlier
 // in the list and has not been processed. Then the thread continues with the block that is farthest
 // behind. So each vertex sees the star that it would see in serial order, and no two threads use
-// the same tet at the same time. What depends on the number of earlier moves follows: the final
-// dates on all threads, the list of changes and the action's books in the order of the list.
+// the same tet at the same time. What depends on the number of earlier moves, which is their dates
+// and the action's books, follows in the order of the list.
 
 #include <array>
 #include <atomic>
@@ -68,15 +68,8 @@ public:
                 for (const mesh::VertexId v : vertices) loop.codes_[v] = no_code;
             }
         } const forget{*this, vertices};
-        // The calling thread always has the same share, so that most of its data are in its cache.
-        const std::thread::id caller = std::this_thread::get_id();
-        std::atomic<unsigned> helpers{0};
-        const auto body = [&](std::size_t, std::size_t) {
-            const bool helps = std::this_thread::get_id() != caller;
-            work(vertices, {helps ? ++helpers : 0, workers->threads()}, action);
-        };
-        for_blocks(workers, workers->threads(), 1, body);
-        settle(vertices, *workers, action);
+        share_out(*workers, [&](Share share) { work(vertices, share, action); });
+        settle(vertices, action);
     }
 
 private:
@@ -84,7 +77,6 @@ private:
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_code = 0xffffffffU;
     static constexpr std::uint8_t attempted = 1, moved = 2;
-    static constexpr std::size_t dated = 4096;  // tets that a thread dates at a time
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
                                                                    // asked for data
 
@@ -96,14 +88,7 @@ private:
         bool prepared = false;             // scratch has the star and the neighbours of the next
         std::vector<std::uint32_t> turns;  // of the items, ascending
         StarScratch scratch;
-        mesh::Complex::MoveNotes notes;
-        std::size_t settled = 0;  // moves whose changes have been listed
 
-        // What the block's n-th move adds to the change list.
-        std::span<const mesh::TetId> changes_of(std::size_t n) const {
-            const std::size_t begin = n == 0 ? 0 : notes.ends[n - 1];
-            return std::span(notes.changed).subspan(begin, notes.ends[n] - begin);
-        }
         bool take() { return !taken.exchange(true, std::memory_order_acquire); }
         void give_back() { taken.store(false, std::memory_order_release); }
     };
@@ -121,6 +106,9 @@ private:
     bool divide(std::span<const mesh::VertexId> vertices, Workers& workers);
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
     std::uint8_t block_at(const Vec3& place) const;
+    bool is_in(Share share, std::size_t block) const {
+        return (block * share.of >> levels_) == share.part;
+    }
     Offer farthest_behind(Share share, std::uint32_t refused) const;
 
     // Whether the neighbours that come earlier have been processed.
@@ -214,31 +202,30 @@ private:
 
     // What follows in the order of the list.
     template <class Action>
-    void settle(std::span<const mesh::VertexId> vertices, Workers& workers, Action& action) {
-        numbers_.resize(vertices.size());
-        std::uint32_t moves = 0;
-        for (std::size_t turn = 0; turn < vertices.size(); ++turn) {
-            if ((marks_[turn] & moved) != 0) ++moves;
-            numbers_[turn] = moves;
-        }
+    void settle(std::span<const mesh::VertexId> vertices, Action& action) {
         for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
-            if ((marks_[turn] & moved) != 0) {
-                Block& block = blocks_[block_of_[turn]];
-                complex_.append_changes(block.changes_of(block.settled++));
-            }
-            action.settle(turn, (marks_[turn] & attempted) != 0, complex_.clock() + numbers_[turn]);
+            if (turn + farther < vertices.size())
+                complex_.prefetch_star_entry(vertices[turn + farther]);
+            if (turn + far < vertices.size()) complex_.prefetch_star(vertices[turn + far]);
+            if (turn + near < vertices.size() && (marks_[turn + near] & moved) != 0)
+                complex_.prefetch_star_dates(vertices[turn + near]);
+            if ((marks_[turn] & moved) != 0) complex_.note_move(vertices[turn]);
+            action.settle(turn, (marks_[turn] & attempted) != 0, complex_.clock());
         }
-        workers.for_blocks(complex_.changes().size(), dated,
-                           [this](std::size_t begin, std::size_t end) {
-                               complex_.settle_tet_dates(begin, end, numbers_);
-                           });
-        workers.for_blocks(most_blocks, 1, [&](std::size_t block, std::size_t) {
-            settle_vertex_dates(vertices, blocks_[block]);
-        });
-        complex_.advance_clock(moves);
     }
 
-    void settle_vertex_dates(std::span<const mesh::VertexId> vertices, Block& block);
+    // Calls run(share) on all threads. The calling thread always has the same share, so that most
+    // of its data are in its cache.
+    template <class Run>
+    static void share_out(Workers& workers, const Run& run) {
+        const std::thread::id caller = std::this_thread::get_id();
+        std::atomic<unsigned> helpers{0};
+        const auto body = [&](std::size_t, std::size_t) {
+            const bool helps = std::this_thread::get_id() != caller;
+            run(Share{helps ? ++helpers : 0, workers.threads()});
+        };
+        workers.for_blocks(workers.threads(), 1, body);
+    }
 
     template <class Action>
     std::uint8_t run_next(Block& block, mesh::VertexId v, std::uint32_t i, Action& action) {
@@ -246,7 +233,7 @@ private:
         if (!action.ready(i)) return 0;
         if (!action.attempt(i, scratch)) return attempted;
         complex_.place(v, scratch.place, scratch.star, scratch.qualities);
-        complex_.note_ahead(v, scratch.star, scratch.neighbours, i, block.notes);
+        complex_.date_ahead(scratch.neighbours);
         return attempted | moved;
     }
 
@@ -263,7 +250,6 @@ private:
                                         // in the list
     std::vector<std::uint8_t> block_of_;  // per item
     std::vector<std::uint8_t> marks_;     // per item
-    std::vector<std::uint32_t> numbers_;  // per item: the number of moves up to it
 };
 
 }  // namespace dsc::kernel

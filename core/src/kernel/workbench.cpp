@@ -182,12 +182,12 @@ Refusal Workbench::remember(VertexId v, Smoother smoother, float accept_above, R
 }
 
 bool Workbench::flat(VertexId v) {
-    if (limits.flatness != flat_limit_) flat_memory_.clear();
+    if (limits.flatness != flat_limit_ || flat_memory_.empty())
+        flat_memory_.assign(flat_answers, Flatness{});
     flat_limit_ = limits.flatness;
-    if (flat_memory_.size() < complex.vertex_slots()) flat_memory_.resize(complex.vertex_slots());
-    Flatness& memory = flat_memory_[v];
+    Flatness& memory = flat_memory_[v % flat_answers];
     const std::uint32_t date = complex.vertex_date(v);
-    if (!memory.known || memory.date != date) memory = {date, true, find_flat(v)};
+    if (memory.vertex != v || memory.date != date) memory = {v, date, find_flat(v)};
     return memory.flat;
 }
 

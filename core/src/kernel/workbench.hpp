@@ -173,8 +173,8 @@ public:
     /// Forgets all refusals, because the limits have changed.
     void forget_refusals() { memory_.clear(); }
 
-    /// Whether the interface faces round v are flat to each other (signed normals). The answer is
-    /// remembered until the star of v changes.
+    /// Whether the interface faces round v are flat to each other (signed normals). Recent answers
+    /// are remembered until the star of v changes.
     bool flat(VertexId v);
     /// Vertices of the star's interface faces as triangles with v first, counter-clockwise from the
     /// smaller label.
@@ -193,14 +193,16 @@ private:
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
 
-    // The last answer of flat(), and the date of the vertex at that time. As with refusals, a new
-    // vertex in the same slot has a later date.
+    // The last answers of flat(), one per group of vertices with the same remainder, and the date
+    // of the vertex at that time. As with refusals, a new vertex in the same slot has a later date.
     struct Flatness {
+        VertexId vertex = mesh::none;
         std::uint32_t date = 0;
-        bool known = false, flat = false;
+        bool flat = false;
     };
-    std::vector<Flatness> flat_memory_;  // per vertex, for
-    double flat_limit_ = 0.0;            // this flatness
+    static constexpr std::size_t flat_answers = 4096;
+    std::vector<Flatness> flat_memory_;
+    double flat_limit_ = 0.0;  // the flatness for which they hold
 
     // The last refusal at a vertex, for each kind of smoothing: its reason, and the change clock at
     // that time. A new vertex in the same slot has a star with a later date, so the refusal does

@@ -134,48 +134,21 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
     for (const VertexId w : neighbours) vertices_[w].date = clock_;
 }
 
-// Several threads may date the same vertex; the latest date counts.
-void Complex::date_at_least(VertexId v, std::uint32_t date) {
-    const std::atomic_ref<std::uint32_t> place(vertices_[v].date);
-    std::uint32_t before = place.load(std::memory_order_relaxed);
-    while (before < date && !place.compare_exchange_weak(before, date, std::memory_order_relaxed)) {
+// Several threads may date the same vertex: they write the same value.
+void Complex::date_ahead(std::span<const VertexId> neighbours) {
+    for (const VertexId w : neighbours) {
+        const std::atomic_ref<std::uint32_t> date(vertices_[w].date);
+        date.store(clock_ + 1, std::memory_order_relaxed);
     }
 }
 
-void Complex::note_ahead(VertexId v, std::span<const TetId> star,
-                         std::span<const VertexId> neighbours, std::uint32_t turn,
-                         MoveNotes& notes) {
-    const std::uint32_t date = clock_ + 1 + turn;
-    for (const TetId t : star) {
-        TetData& tet = data_[t];
-        if (tet.date <= taken_clock_) notes.changed.push_back(t);
-        tet.date = date;
+void Complex::note_move(VertexId v) {
+    std::span<const TetId> star = stars_.tets(v);
+    if (star.empty()) {
+        walk_star(v, star_scratch_, places_);
+        star = star_scratch_;
     }
-    notes.ends.push_back(static_cast<std::uint32_t>(notes.changed.size()));
-    // All threads write the same value, so nothing is lost.
-    const auto mark = [this](VertexId w) {
-        const std::atomic_ref<std::uint32_t> place(vertices_[w].date);
-        if (place.load(std::memory_order_relaxed) <= clock_)
-            place.store(clock_ + 1, std::memory_order_relaxed);
-    };
-    mark(v);
-    for (const VertexId w : neighbours) mark(w);
-}
-
-void Complex::settle_tet_dates(std::size_t begin, std::size_t end,
-                               std::span<const std::uint32_t> numbers) {
-    constexpr std::size_t ahead = 16;
-    for (std::size_t i = begin; i < end; ++i) {
-        if (i + ahead < end) __builtin_prefetch(&data_[changes_[i + ahead]]);
-        std::uint32_t& date = data_[changes_[i]].date;
-        if (date > clock_) date = clock_ + numbers[date - clock_ - 1];
-    }
-}
-
-void Complex::settle_vertex_dates(VertexId v, std::span<const VertexId> neighbours,
-                                  std::uint32_t date) {
-    date_at_least(v, date);
-    for (const VertexId w : neighbours) date_at_least(w, date);
+    note_change(v, star);
 }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {

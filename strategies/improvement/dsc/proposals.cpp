@@ -151,11 +151,10 @@ void Proposals::Findings::clear() {
 
 // Whether no tet earlier in the list is known to ask for this vertex; threads may ask together.
 bool Proposals::come_first(mesh::VertexId v, std::uint32_t place) {
-    const std::uint64_t own = visit_of(place);
-    const std::atomic_ref<std::uint64_t> first(first_[v]);
-    std::uint64_t known = first.load(std::memory_order_relaxed);
-    while (own < known) {
-        if (first.compare_exchange_weak(known, own, std::memory_order_relaxed)) return true;
+    const std::atomic_ref<std::uint32_t> first(first_[v]);
+    std::uint32_t known = first.load(std::memory_order_relaxed);
+    while (place < known) {
+        if (first.compare_exchange_weak(known, place, std::memory_order_relaxed)) return true;
     }
     return false;
 }
@@ -181,8 +180,7 @@ void Proposals::find_in(const repair::RepairRound& round, std::uint32_t place, F
 // turn, so that their findings do not fill the memory.
 void Proposals::find(const repair::RepairRound& round, Workers* workers) {
     if (first_.size() < round.complex.vertex_slots())
-        first_.resize(round.complex.vertex_slots(), UINT64_MAX);
-    ++visit_;
+        first_.resize(round.complex.vertex_slots(), mesh::none);
     all_.clear();
     blocks_.resize(looked_blocks);
     struct Job {
@@ -199,6 +197,7 @@ void Proposals::find(const repair::RepairRound& round, Workers* workers) {
         });
         join((count + look_block - 1) / look_block);
     }
+    for (const FreeEntry& entry : all_.free) first_[entry.vertex] = mesh::none;
 }
 
 void Proposals::find_in_block(const repair::RepairRound& round, std::size_t begin, std::size_t end,
@@ -227,10 +226,9 @@ void Proposals::join(std::size_t blocks) {
         append(all_.long_edges, found.long_edges);
         append(all_.free_edges, found.free_edges);
         // A tet of an earlier block may have asked for the vertex afterwards.
-        std::copy_if(found.free.begin(), found.free.end(), std::back_inserter(all_.free),
-                     [this](const FreeEntry& entry) {
-                         return first_[entry.vertex] == visit_of(entry.place);
-                     });
+        std::copy_if(
+            found.free.begin(), found.free.end(), std::back_inserter(all_.free),
+            [this](const FreeEntry& entry) { return first_[entry.vertex] == entry.place; });
     }
 }
 

@@ -79,19 +79,15 @@ private:
     void note_edges(const repair::RepairRound& round, mesh::TetId t, Findings& out) const;
     void note_free_edges(const repair::RepairRound& round, mesh::TetId t, Findings& out) const;
     bool come_first(mesh::VertexId v, std::uint32_t place);
-    std::uint64_t visit_of(std::uint32_t place) const {
-        return std::uint64_t{~visit_} << 32U | place;
-    }
 
     Thresholds limits_;
     ShapeProposals shapes_;
     std::vector<Findings> blocks_;
     Findings all_;
     mesh::EdgeRing ring_;
-    // Per vertex: the first dirty tet of the last round that asks for its smoothing. The number of
-    // the round is complemented, so that any tet of a later round comes before those of this one.
-    std::vector<std::uint64_t> first_;
-    std::uint32_t visit_ = 0;
+    // Per vertex: the place of the first dirty tet that asks for its smoothing; none between
+    // rounds.
+    std::vector<std::uint32_t> first_;
 };
 
 }  // namespace dsc::improvement

@@ -171,12 +171,17 @@ public:
     }
 
     /// The same for a star: first where it is stored, then its ids, then its tets and neighbours as
-    /// far as they are stored. Each call needs what the one before has fetched.
+    /// far as they are stored, or only their dates. Each call needs what the one before has
+    /// fetched.
     void prefetch_star_entry(VertexId v) const { stars_.prefetch(v); }
     void prefetch_star(VertexId v) const { __builtin_prefetch(stars_.tets(v).data()); }
     void prefetch_star_tets(VertexId v) const {
         for (const TetId t : stars_.tets(v)) prefetch(t);
         for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w]);
+    }
+    void prefetch_star_dates(VertexId v) const {
+        for (const TetId t : stars_.tets(v)) __builtin_prefetch(&data_[t].date);
+        for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w].date);
     }
 
     // ---- walks ----------------------------------------------------------------------------------
@@ -189,9 +194,6 @@ public:
     void cached_star(VertexId v, std::vector<TetId>& out, TetIndex& scratch) const;
     /// The same with a table that belongs to the complex. [step]
     void star(VertexId v, std::vector<TetId>& out) const { cached_star(v, out, places_); }
-    /// The vertices joined to v if they are stored, in ascending birth order; else empty. They stay
-    /// where they are until the star changes. [parallel] as cached_star().
-    std::span<const VertexId> stored_neighbours(VertexId v) const { return stars_.neighbours(v); }
     /// The vertices joined to v, in ascending birth order; `star` are its tets. `scratch` as above.
     /// [parallel] if no two threads ask for the same vertex.
     void cached_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
@@ -228,40 +230,13 @@ public:
         place(v, position, star, qualities);
         note_change(v, star);
     }
-
-    // The parts of move(), for several vertices at the same time. The moves have numbers in an
-    // order, the turns; those that share a tet must be made in this order. The result is that of
-    // move() for each, in this order.
-    /// What the moves of one block have changed, in the order of their turns.
-    struct MoveNotes {
-        std::vector<TetId> changed;       // for the change list
-        std::vector<std::uint32_t> ends;  // per move: the size of `changed` after it
-        void clear() {
-            changed.clear();
-            ends.clear();
-        }
-    };
-    /// Places the vertex. [parallel] if no other thread uses the star meanwhile.
+    /// The parts of move(), for several vertices. place() may run in parallel if no other thread
+    /// uses the star meanwhile, and date_ahead() gives the neighbours a date that is later than all
+    /// before [parallel]. Then note_move() does the rest, in the order of the moves [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
-    /// Notes that it was moved: gives its tets provisional dates above the change clock, in the
-    /// order of the turns, and its vertices any date above the clock. [parallel] as place(), with
-    /// one object of notes per thread.
-    void note_ahead(VertexId v, std::span<const TetId> star, std::span<const VertexId> neighbours,
-                    std::uint32_t turn, MoveNotes& notes);
-    /// After all moves: continues the change list, in the order of the turns. [step]
-    void append_changes(std::span<const TetId> changed) {
-        changes_.insert(changes_.end(), changed.begin(), changed.end());
-    }
-    /// Then: replaces the provisional dates of the tets in a part of the change list. `numbers` has
-    /// one entry per turn: the number of moves up to it. [parallel] for different parts.
-    void settle_tet_dates(std::size_t begin, std::size_t end,
-                          std::span<const std::uint32_t> numbers);
-    /// And for each move: dates its vertices. `date` is the clock after the move. It is fastest if
-    /// late moves come first. [parallel]
-    void settle_vertex_dates(VertexId v, std::span<const VertexId> neighbours, std::uint32_t date);
-    /// At last: advances the clock by the number of moves. [step]
-    void advance_clock(std::uint32_t moves) { clock_ += moves; }
+    void date_ahead(std::span<const VertexId> neighbours);
+    void note_move(VertexId v);
     /// Gives tets another label. [step]
     void relabel(std::span<const TetId> tets, Label label);
 
@@ -315,7 +290,6 @@ private:
     VertexId allocate_vertex(const Vec3& position);
     TetId allocate_tet();
     void note_change(VertexId v, std::span<const TetId> star);
-    void date_at_least(VertexId v, std::uint32_t date);
     void touch(TetId t);
     bool find_relabelled(const Edit& edit);
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
