@@ -183,10 +183,12 @@ class Streams(unittest.TestCase):
     def test_two_runs_for_one_folder(self):
         process = subprocess.Popen([PROGRAM, "run", "a.yaml", "-o", "one", "-q"], cwd=self.scratch, stdout=subprocess.DEVNULL)
         self.until(lambda: (self.scratch / "one/status.json").exists())
+        process.send_signal(signal.SIGSTOP)  # else it may end before the second one begins
         for more in ([], ["--resume"]):
             second = self.run_in("one", "schedule.0.steps=2", *more)
             self.assertEqual(second.returncode, 2)
             self.assertIn(f"one: is in use by the run of process {process.pid}", second.stderr)
+        process.send_signal(signal.SIGCONT)
         self.assertEqual(process.wait(), 0)
         self.require_whole("one")
         self.assertFalse((self.scratch / "one/.lock").exists())

@@ -134,11 +134,9 @@ Colour shade(const Vec3f& normal, const Colour& material, float open) {
     // Crevices also get less of the key light; this partly replaces its soft shadow.
     const Colour light = open * ambient + (0.3F + 0.7F * open) * lit * key_light +
                          (0.4F + 0.6F * open) * std::max(0.0F, normal.z()) * head_light;
-    // The 36th power of the cosine.
-    const float cosine = std::max(0.0F, normal.dot(half));
-    const float square = cosine * cosine, fourth = square * square, eighth = fourth * fourth;
-    const float sixteenth = eighth * eighth;
-    const float gloss = 0.10F * sixteenth * sixteenth * fourth * open;
+    const auto square = [](float x) { return x * x; };
+    const float fourth = square(square(std::max(0.0F, normal.dot(half))));
+    const float gloss = 0.10F * square(square(square(fourth))) * fourth * open;  // 36th power
     return material * light + gloss;
 }
 
@@ -154,8 +152,7 @@ float radical_inverse(unsigned i) {
     return value;
 }
 
-/// Directions round +z with the density of their cosine. A pixel uses every 16th of them; together
-/// the pixels of a tile use all.
+/// Directions round +z with the density of their cosine. A pixel uses every 16th of them.
 std::array<Vec3f, 16 * occlusion_rays> occlusion_directions() {
     std::array<Vec3f, 16 * occlusion_rays> all;
     for (unsigned number = 0; number < all.size(); ++number) {
@@ -197,8 +194,7 @@ public:
                         static_cast<std::size_t>(options.height));
     }
 
-    /// First pass: what the middle of every pixel sees, and its occlusion; each pixel uses other
-    /// directions than its neighbours.
+    /// First pass: what the middle of every pixel sees, and its occlusion.
     void measure_row(int y) {
         for (int x = 0; x < options_.width; ++x) {
             Surfel& centre = centres_[index(x, y)];
@@ -217,8 +213,7 @@ public:
             {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
         auto out = image.pixels.begin() + 3 * static_cast<std::ptrdiff_t>(y) * image.width;
         const Colour sky = background_at(frame_y(static_cast<float>(y) + 0.5F));
-        const std::array<std::uint8_t, 3> plain = {to_srgb(sky[0]), to_srgb(sky[1]),
-                                                   to_srgb(sky[2])};
+        const std::array plain = {to_srgb(sky[0]), to_srgb(sky[1]), to_srgb(sky[2])};
         for (int x = 0; x < image.width; ++x) {
             Colour mean = Colour::Zero();
             if (smooth_at(x, y)) {

@@ -28,7 +28,7 @@ public:
     bool qualities(const Accept& accept) {
         Two least = Two::Constant(std::numeric_limits<double>::infinity());
         for (std::size_t i = 0; i < count_; i += 2) {
-            const Eigen::Array2f q = quality(pairs_[i / 2], least).template cast<float>();
+            const Two q = quality(pairs_[i / 2], least);
             if (!accept(i, q[0]) || (i + 1 < count_ && !accept(i + 1, q[1]))) return false;
         }
         least_square_ = least.minCoeff();
@@ -48,9 +48,9 @@ private:
     static TwoVectors difference(const TwoVectors& to, const TwoVectors& from) {
         return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
     }
-    // The sums have the order of Eigen's sums over a vector of three.
+    // The sum has the order of Eigen's sums over a vector of three.
     static Two dot(const TwoVectors& x, const TwoVectors& y) {
-        return x[0] * y[0] + (x[1] * y[1] + x[2] * y[2]);
+        return (x[0] * y[0] + x[1] * y[1]) + x[2] * y[2];
     }
     static TwoVectors cross(const TwoVectors& x, const TwoVectors& y) {
         return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
@@ -90,8 +90,8 @@ public:
         const std::size_t suspect = complex_.suspect(v_);
         if (suspect < star_.size() && !accept(suspect, quality_of_tet(suspect, place)))
             return false;
-        const auto keep = [&](std::size_t i, float q) {
-            if (accept(i, q)) return true;
+        const auto keep = [&](std::size_t i, double q) {
+            if (accept(i, static_cast<float>(q))) return true;
             complex_.keep_suspect(v_, i);
             return false;
         };
@@ -130,7 +130,7 @@ private:
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < star_.size(); ++i) {
             const geometry::TetShape tet = shape(i, place);
-            if (!accept(i, static_cast<float>(tet.quality))) return false;
+            if (!accept(i, tet.quality)) return false;
             least = std::min(least, tet.mean_square);
         }
         least_square_ = least;
