@@ -74,7 +74,7 @@ public:
     // `bound`.
     float least(const Vec3& place, bool a_moves, bool b_moves, float bound) const {
         const auto scan = [&](const End& end, VertexId v, VertexId other) {
-            return mesh::star_quality_above(bound, c_, end.star, v, place, nullptr,
+            return mesh::star_quality_above(bound, c_, end.star, v, place,
                                             [&](TetId t) { return remains(t, other); });
         };
         const float at_a = a_moves ? scan(own_.a, a_, b_) : 2.0F;

@@ -204,9 +204,9 @@ private:
     std::vector<Flatness> flat_memory_;
     double flat_limit_ = 0.0;  // the flatness for which they hold
 
-    // The last refusal at a vertex, for each kind of smoothing: its reason, and the change clock at
-    // that time. A new vertex in the same slot has a star with a later date, so the refusal does
-    // not count for it.
+    // What is remembered of the last refusal at a vertex, for each kind of smoothing. The date is
+    // the change clock at that time. A new vertex in the same slot has a star with a later date, so
+    // the refusal does not count for it.
     struct Memory {
         std::array<std::uint32_t, 2> date = {0, 0};
         float accept_above = 0.0F;  // of the Laplacian; the other kind has no bound

@@ -290,7 +290,7 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
         out.push_back(on_tet(c, entry.tet, Operation::interface_flip, low, 2.0));
         out.push_back(on_tet(c, entry.tet, Operation::face_removal, low, 2.0));
         for (const mesh::VertexId v : c.tet(entry.tet).v) {
-            if (c.on_interface(v) || c.on_box(v)) continue;
+            if (!c.interior(v)) continue;
             Request request = on_tet(c, entry.tet, Operation::smooth_optimise, low, 2.0);
             request.vertices[0] = v;
             out.push_back(request);

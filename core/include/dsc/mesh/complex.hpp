@@ -114,7 +114,7 @@ public:
     Label label(TetId t) const { return data_[t].label; }
     /// Volume-length quality in (0, 1], cached.
     float quality(TetId t) const { return data_[t].quality; }
-    /// Least quality of all tets; 2 if there is no tet. Reads 16 bytes per tet.
+    /// The least quality of all tets, or 2 if the complex has no tet. It reads 16 bytes per tet.
     float least_quality() const;
     /// Value of the change clock when the tet was last made, moved or relabelled.
     std::uint32_t date(TetId t) const { return data_[t].date; }
@@ -220,7 +220,7 @@ public:
     /// Commits a linked edit; its tets must be positive. Returns the id of the created vertex, or
     /// none. [step]
     VertexId replace(Edit& edit);
-    /// Moves a vertex. `star` contains its tets. Each of them must be positive after the move.
+    /// Moves a vertex. `star` is the list of its tets. Each tet must be positive after the move.
     /// [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star);
     /// The same with known qualities of the tets at the new position, in the order of the star.

@@ -29,12 +29,15 @@ inline double quality_of(const std::array<const Vec3*, 4>& p) {
 inline bool exactly_positive(const std::array<const Vec3*, 4>& p) {
     return geometry::orient3d(*p[0], *p[1], *p[2], *p[3]) == 1;
 }
+/// A tet above this quality is positive if its squared edges are above the second number.
+inline constexpr float clear_quality = 1e-9F;
+inline constexpr double no_underflow = 1e-120;
 /// The same if the tet's quality is known. It nearly always decides: with m the mean squared edge,
 /// the determinant is q m^(3/2) / sqrt(2), and rounding changes it by less than 1e-13 m^(3/2): by
 /// 8 eps times six products of three edges, each of which is at most (6 m)^(3/2). The length
 /// excludes numbers so small that they underflow.
 inline bool exactly_positive(const std::array<const Vec3*, 4>& p, float quality) {
-    if (quality > 1e-9F && (*p[1] - *p[0]).squaredNorm() > 1e-120) return true;
+    if (quality > clear_quality && (*p[1] - *p[0]).squaredNorm() > no_underflow) return true;
     return exactly_positive(p);
 }
 
@@ -51,30 +54,20 @@ inline double star_quality(const Complex& complex, std::span<const TetId> star, 
     return least;
 }
 
-/// The least quality of the tets if v is moved to `place`, without the exact test. Returns 2 if
-/// there is no tet, and -1 if the quality of a tet is at most `bound`. Tets for which `counts(t)`
-/// is false are left out. `qualities`, if given, receives the others in the order of the star.
-/// [parallel]
+/// The least quality of the tets if v is moved to `place`, without the exact test. Tets for which
+/// `counts(t)` is false are left out. Returns 2 if no tet counts, and -1 if the quality of a tet is
+/// at most `bound`. [parallel]
 template <class Counts>
 float star_quality_above(float bound, const Complex& complex, std::span<const TetId> star,
-                         VertexId v, const Vec3& place, std::vector<float>* qualities,
-                         const Counts& counts) {
+                         VertexId v, const Vec3& place, const Counts& counts) {
     float least = 2.0F;
-    if (qualities != nullptr) qualities->clear();
     for (const TetId t : star) {
         if (!counts(t)) continue;
         const auto q = static_cast<float>(quality_of(corners_at(complex, t, v, place)));
         if (!(q > bound)) return -1.0F;
-        if (qualities != nullptr) qualities->push_back(q);
         least = std::min(least, q);
     }
     return least;
-}
-inline float star_quality_above(float bound, const Complex& complex, std::span<const TetId> star,
-                                VertexId v, const Vec3& place,
-                                std::vector<float>* qualities = nullptr) {
-    return star_quality_above(bound, complex, star, v, place, qualities,
-                              [](TetId) { return true; });
 }
 
 }  // namespace dsc::mesh

@@ -1,6 +1,6 @@
 #pragma once
-// Tries places for a vertex: the qualities of its tets there, until one of them is refused
-// (method.md, sections 4.2 and 5.2).
+// Tests whether a vertex may move to a place. The test computes the qualities of its tets there,
+// and it ends at the first tet that the caller refuses (method.md, sections 4.2 and 5.2).
 
 #include <algorithm>
 #include <array>
@@ -107,10 +107,8 @@ public:
     /// Whether all tets are exactly positive at the place that was accepted last. `qualities` are
     /// those of the tets. As with exactly_positive(), the quality nearly always decides.
     bool positive(const Vec3& place, std::span<const float> qualities) const {
-        constexpr float clear = 1e-9F;
-        constexpr double no_underflow = 1e-120;
-        if (least_square_ > no_underflow &&
-            std::all_of(qualities.begin(), qualities.end(), [](float q) { return q > clear; }))
+        if (least_square_ > no_underflow && std::all_of(qualities.begin(), qualities.end(),
+                                                        [](float q) { return q > clear_quality; }))
             return true;
         return std::all_of(star_.begin(), star_.end(), [&](TetId t) {
             return exactly_positive(corners_at(complex_, t, v_, place));
