@@ -76,20 +76,17 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     return true;
 }
 
-// The block that is farthest behind, of those in the share if one can be had.
-StarLoop::Offer StarLoop::farthest_behind(Share share, std::uint32_t refused) const {
+StarLoop::Offer StarLoop::farthest_behind(std::uint32_t refused) const {
     Offer offer;
     std::uint32_t least = no_code;
-    bool own = false;
     for (std::size_t b = 0; b < std::size_t{1} << levels_; ++b) {
         const std::uint32_t turn = blocks_[b].turn.load(std::memory_order_acquire);
         if (turn == no_code) continue;
         offer.finished = false;
-        if ((refused >> b & 1U) != 0 || blocks_[b].taken.load(std::memory_order_relaxed)) continue;
-        const bool in_share = is_in(share, b);
-        if (own ? !in_share || turn >= least : !in_share && turn >= least) continue;
+        if (turn >= least || (refused >> b & 1U) != 0 ||
+            blocks_[b].taken.load(std::memory_order_relaxed))
+            continue;
         least = turn;
-        own = in_share;
         offer.block = b;
     }
     return offer;

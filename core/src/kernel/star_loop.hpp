@@ -68,7 +68,8 @@ public:
                 for (const mesh::VertexId v : vertices) loop.codes_[v] = no_code;
             }
         } const forget{*this, vertices};
-        share_out(*workers, [&](Share share) { work(vertices, share, action); });
+        const auto body = [&](std::size_t, std::size_t) { work(vertices, action); };
+        workers->for_blocks(workers->threads(), 1, body);
         settle(vertices, action);
     }
 
@@ -93,10 +94,6 @@ private:
         void give_back() { taken.store(false, std::memory_order_release); }
     };
 
-    // The blocks that a thread prefers: the part-th of `of` equal parts.
-    struct Share {
-        unsigned part = 0, of = 1;
-    };
     // What a thread that looks for work finds.
     struct Offer {
         std::size_t block = most_blocks;  // most_blocks: none that is not taken or refused
@@ -106,10 +103,7 @@ private:
     bool divide(std::span<const mesh::VertexId> vertices, Workers& workers);
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
     std::uint8_t block_at(const Vec3& place) const;
-    bool is_in(Share share, std::size_t block) const {
-        return (block * share.of >> levels_) == share.part;
-    }
-    Offer farthest_behind(Share share, std::uint32_t refused) const;
+    Offer farthest_behind(std::uint32_t refused) const;
 
     // Whether the neighbours that come earlier have been processed.
     bool is_free(const Block& block, std::uint32_t turn) const {
@@ -148,10 +142,9 @@ private:
     // Until all items have been processed. The earliest of the items that are left can always be
     // processed, so threads do not wait for each other without end, and one thread is enough.
     template <class Action>
-    void work(std::span<const mesh::VertexId> vertices, Share share, Action& action) {
+    void work(std::span<const mesh::VertexId> vertices, Action& action) {
         std::uint32_t refused = 0;  // bits of the blocks that were not free
-        for (Offer offer = farthest_behind(share, 0); !offer.finished;
-             offer = farthest_behind(share, refused)) {
+        for (Offer offer = farthest_behind(0); !offer.finished; offer = farthest_behind(refused)) {
             if (offer.block == most_blocks) {
                 refused = 0;
                 std::this_thread::yield();
@@ -212,19 +205,6 @@ private:
             if ((marks_[turn] & moved) != 0) complex_.note_move(vertices[turn]);
             action.settle(turn, (marks_[turn] & attempted) != 0, complex_.clock());
         }
-    }
-
-    // Calls run(share) on all threads. The calling thread always has the same share, so that most
-    // of its data are in its cache.
-    template <class Run>
-    static void share_out(Workers& workers, const Run& run) {
-        const std::thread::id caller = std::this_thread::get_id();
-        std::atomic<unsigned> helpers{0};
-        const auto body = [&](std::size_t, std::size_t) {
-            const bool helps = std::this_thread::get_id() != caller;
-            run(Share{helps ? ++helpers : 0, workers.threads()});
-        };
-        workers.for_blocks(workers.threads(), 1, body);
     }
 
     template <class Action>
