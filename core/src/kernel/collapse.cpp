@@ -12,7 +12,8 @@ namespace dsc::kernel {
 struct CollapseScratch {
     // Of one end of the edge.
     struct End {
-        std::vector<TetId> star;
+        mesh::StarWalk walk;
+        std::span<const TetId> star;
         std::vector<VertexId> neighbours;  // along interface edges, by id
     };
     mesh::EdgeRing ring;
@@ -50,8 +51,8 @@ public:
 
     // Must come before everything that reads the stars.
     void walk() {
-        c_.star(a_, own_.a.star);
-        c_.star(b_, own_.b.star);
+        own_.a.star = c_.cached_star(a_, own_.a.walk);
+        own_.b.star = c_.cached_star(b_, own_.b.walk);
     }
 
     float least_quality_of_stars() const {
@@ -86,7 +87,7 @@ public:
         mesh::Edit& edit = bench_.edit;
         edit.clear();
         edit.deleted = plan.removed;
-        edit.removed = end(plan.removed).star;
+        edit.removed.assign(end(plan.removed).star.begin(), end(plan.removed).star.end());
         for (const TetId t : end(plan.removed).star) {
             if (!remains(t, plan.kept)) continue;
             mesh::NewTet tet{c_.tet(t).v, c_.label(t)};

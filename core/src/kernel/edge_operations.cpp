@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <dsc/geometry/quality.hpp>
+#include <dsc/geometry/tet_pair.hpp>
 
 #include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
@@ -28,9 +29,10 @@ struct Fan {
 
 // Finds the triangulation whose least quality is largest and above `must_exceed`; false if there is
 // none.
-bool triangulate(const Workbench& bench, VertexId a, VertexId b, float must_exceed, Fan& fan) {
+bool triangulate(const mesh::Complex& c, VertexId a, VertexId b, float must_exceed, Fan& fan) {
     if (fan.corners.size() < 3) return true;
     const Triangulations& table = triangulations(fan.corners.size());
+    const geometry::TwoVec3 ends = geometry::side_by_side(c.position(b), c.position(a));
     std::array<float, 35> quality{};
     std::uint64_t bad = 0;
     // Every triangulation has one of the first triangles, which contain the side (0, 1).
@@ -38,11 +40,14 @@ bool triangulate(const Workbench& bench, VertexId a, VertexId b, float must_exce
     const std::uint64_t all_at_side = (std::uint64_t{1} << at_side) - 1;
     for (std::size_t n = 0; n < table.triangle_count; ++n) {
         if (n == at_side && bad == all_at_side) return false;
-        const VertexId i = fan.corners[table.triangles[n].i];
-        const VertexId j = fan.corners[table.triangles[n].j];
-        const VertexId k = fan.corners[table.triangles[n].k];
-        auto q = static_cast<float>(bench.quality(i, j, k, b));
-        if (q > must_exceed) q = std::min(q, static_cast<float>(bench.quality(j, i, k, a)));
+        const Vec3& i = c.position(fan.corners[table.triangles[n].i]);
+        const Vec3& j = c.position(fan.corners[table.triangles[n].j]);
+        const Vec3& k = c.position(fan.corners[table.triangles[n].k]);
+        // The two tets that add_tets() makes.
+        using geometry::side_by_side;
+        const auto q = static_cast<float>(
+            geometry::tet_shapes({side_by_side(i, j), side_by_side(j, i), side_by_side(k, k), ends})
+                .quality.minCoeff());
         quality[n] = q;
         if (!(q > must_exceed)) bad |= std::uint64_t{1} << n;
     }
@@ -91,7 +96,7 @@ Outcome remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float acc
     bench.edit.clear();
     const float must_exceed = std::min(old, accept_above);
     Fan fan{ring.link, c.label(t)};
-    if (!triangulate(bench, a, b, must_exceed, fan)) return Refusal::quality;
+    if (!triangulate(c, a, b, must_exceed, fan)) return Refusal::quality;
     bench.edit.removed = ring.tets;
     add_tets(bench, a, b, fan);
     if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
@@ -143,8 +148,7 @@ Outcome flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     corners.push_back(p);
     Fan first{std::span(ring.link).first(turn + 1), label(0)};
     Fan second{corners, label(turn)};
-    if (!triangulate(bench, a, b, must_exceed, first) ||
-        !triangulate(bench, a, b, must_exceed, second))
+    if (!triangulate(c, a, b, must_exceed, first) || !triangulate(c, a, b, must_exceed, second))
         return Refusal::quality;
     add_tets(bench, a, b, first);
     add_tets(bench, a, b, second);

@@ -15,8 +15,9 @@ bool has_arrived(const mesh::Complex& complex, const Limits& limits, VertexId v,
 
 /// A star tet inverts exactly when its apex crosses the plane of its link face, so the first such
 /// plane limits the distance. The move covers `free_path` of this distance and is halved until no
-/// tet falls below min(floor, its quality before). The function only plans: it reads scratch.star
-/// and writes scratch.place and scratch.qualities, unless the vertex is blocked. [parallel]
+/// tet falls below min(floor, its quality before). The function only plans: it reads the tets
+/// of scratch.star and writes scratch.place and scratch.qualities, unless the vertex is blocked.
+/// [parallel]
 Motion plan_move(const mesh::Complex& complex, const Limits& limits, VertexId v,
                  const Vec3& destination, double free_path, StarScratch& scratch);
 

@@ -34,8 +34,8 @@ Outcome collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId remo
 /// Whether v may be smoothed and a gain is possible, or the reason why not (section 4.2).
 /// [parallel]
 Outcome may_smooth(const Workbench& bench, VertexId v, float accept_above);
-/// The place that smooth_laplacian() would give v: reads scratch.star, writes scratch.place and
-/// scratch.qualities. [parallel]
+/// The place that smooth_laplacian() would give v: reads scratch.star with the neighbours, writes
+/// scratch.place and scratch.qualities. [parallel]
 Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v,
                        float accept_above, StarScratch& scratch);
 /// Moves an interior vertex to the mean of its neighbours (section 4.2).

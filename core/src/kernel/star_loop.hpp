@@ -22,32 +22,27 @@
 
 namespace dsc::kernel {
 
-/// Arrays for the visit of one star, for one thread at a time.
+/// The visit of one star, for one thread at a time.
 struct StarScratch {
-    std::vector<mesh::TetId> star;
-    mesh::TetIndex walk;  // for cached_star() and cached_neighbours()
-    std::vector<mesh::VertexId> neighbours;
-    mesh::VertexId neighbours_of = mesh::none;  // the vertex to which they belong, if they are
-                                                // known
-    Vec3 place = Vec3::Zero();                  // the planned place of the vertex,
-    std::vector<float> qualities;               // and the qualities of the star there, in its order
-    mesh::StarCopy copy;                        // for the trial of places
+    mesh::Star star;
+    mesh::StarWalk walk;
+    Vec3 place = Vec3::Zero();     // the planned place of the vertex,
+    std::vector<float> qualities;  // and the qualities of the star there, in its order
+    mesh::StarCopy copy;           // for the trial of places
 };
 
 class StarLoop {
 public:
     /// Shorter lists run on one thread.
     static constexpr std::size_t least_split = 512;
-    /// Number of tets from which on it pays to ask the memory for data ahead: smaller complexes lie
-    /// in the caches.
-    static constexpr std::size_t large = 400'000;
 
     explicit StarLoop(mesh::Complex& complex) : complex_(complex) {}
 
     /// For each vertices[i], which must be alive:
     /// - action.ready(i): false if there is nothing to try [parallel]
-    /// - action.attempt(i, scratch): scratch.star is filled; true if the vertex moves to
-    ///   scratch.place, with scratch.qualities [parallel]
+    /// - action.attempt(i, scratch): scratch.star is filled, with the neighbours if
+    ///   Action::needs_neighbours; true if the vertex moves to scratch.place, with
+    ///   scratch.qualities [parallel]
     /// - action.settle(i, attempted, date): in the order of the list; date is the change clock at
     ///   its turn [step]
     /// ready() and attempt() may read the star and the date of their vertex, and everything that
@@ -108,7 +103,7 @@ private:
     // Whether the neighbours that come earlier have been processed.
     bool is_free(const Block& block, std::uint32_t turn) const {
         const auto own = static_cast<std::uint32_t>(&block - blocks_.data());
-        for (const mesh::VertexId w : block.scratch.neighbours) {
+        for (const mesh::VertexId w : block.scratch.star.neighbours) {
             const std::uint32_t code = codes_[w], other = code % most_blocks;
             if (code >> most_levels < turn && other != own &&
                 blocks_[other].turn.load(std::memory_order_acquire) <= code >> most_levels)
@@ -120,7 +115,7 @@ private:
     // `at(i)` is the i-th of `count` vertices.
     template <class At>
     void prefetch(std::size_t i, std::size_t count, const At& at) const {
-        if (complex_.tet_slots() < large) return;
+        if (!complex_.exceeds_caches()) return;
         if (i + farther < count) complex_.prefetch_star_entry(at(i + farther));
         if (i + far < count) complex_.prefetch_star(at(i + far));
         if (i + near < count) complex_.prefetch_star_tets(at(i + near));
@@ -131,10 +126,13 @@ private:
         StarScratch& scratch = blocks_.front().scratch;
         const bool ready = action.ready(i);
         if (ready) {
-            complex_.cached_star(v, scratch.star, scratch.walk);
-            scratch.neighbours_of = mesh::none;
+            if constexpr (Action::needs_neighbours) {
+                scratch.star = complex_.cached_star_and_neighbours(v, scratch.walk);
+            } else {
+                scratch.star = {complex_.cached_star(v, scratch.walk), {}};
+            }
             if (action.attempt(i, scratch))
-                complex_.move(v, scratch.place, scratch.star, scratch.qualities);
+                complex_.move(v, scratch.place, scratch.star.tets, scratch.qualities);
         }
         action.settle(i, ready, complex_.clock());
     }
@@ -177,9 +175,7 @@ private:
             if (!block.prepared) {
                 prefetch(block.next, block.turns.size(),
                          [&](std::size_t at) { return vertices[block.turns[at]]; });
-                complex_.cached_star(v, scratch.star, scratch.walk);
-                complex_.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
-                scratch.neighbours_of = v;
+                scratch.star = complex_.cached_star_and_neighbours(v, scratch.walk);
                 block.prepared = true;
             }
             if (!is_free(block, turn)) break;
@@ -212,8 +208,8 @@ private:
         StarScratch& scratch = block.scratch;
         if (!action.ready(i)) return 0;
         if (!action.attempt(i, scratch)) return attempted;
-        complex_.place(v, scratch.place, scratch.star, scratch.qualities);
-        complex_.date_ahead(scratch.neighbours);
+        complex_.place(v, scratch.place, scratch.star.tets, scratch.qualities);
+        complex_.date_ahead(scratch.star.neighbours);
         return attempted | moved;
     }
 

@@ -57,6 +57,7 @@ void Deformer::State::record(std::uint32_t i, Outcome outcome, std::uint32_t dat
 
 // Consecutive requests that smooth different vertices may run in parallel.
 struct Deformer::State::Smoothing {
+    static constexpr bool needs_neighbours = true;
     State& state;
     std::uint32_t first;  // request of vertex 0
     StepReport& report;
@@ -97,9 +98,9 @@ bool Deformer::State::plain_smoothing(const repair::Request& request) const {
 std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) {
     smoothed.clear();
     constexpr std::size_t ahead = 16;
-    const bool large = complex.tet_slots() >= StarLoop::large;
+    const bool fetch = complex.exceeds_caches();
     for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i) {
-        if (large && i + ahead < requests.size() && requests[i + ahead].tet < complex.tet_slots())
+        if (fetch && i + ahead < requests.size() && requests[i + ahead].tet < complex.tet_slots())
             complex.prefetch(requests[i + ahead].tet);
         smoothed.push_back(requests[i].vertices[0]);
     }

@@ -87,7 +87,7 @@ private:
     std::uint32_t seen_epoch_ = 0;
     std::vector<VertexId> queue_;
     mesh::EdgeRing ring_;
-    std::vector<TetId> star_;
+    mesh::StarWalk walk_;
     std::vector<VertexId> touched_;
     std::vector<TetId> component_seeds_;
     std::vector<repair::TopologyCandidate> batch_;

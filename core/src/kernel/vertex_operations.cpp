@@ -11,11 +11,9 @@
 namespace dsc::kernel {
 
 struct SmoothScratch {
-    StarScratch laplacian;
-    // Of the optimising form; the qualities are those at the best and at the tried place.
-    std::vector<TetId> star;
-    std::vector<float> qualities, tried;
-    mesh::StarCopy copy;
+    StarScratch star;
+    std::vector<float> tried;  // of the optimising form: the qualities at the tried place; those in
+                               // `star` are at the best place
 };
 
 struct VertexSplitScratch {
@@ -25,10 +23,20 @@ struct VertexSplitScratch {
 
 namespace {
 
-float star_old(const mesh::Complex& c, std::span<const TetId> star) {
-    float least = 1.0F;
-    for (const TetId t : star) least = std::min(least, c.quality(t));
-    return least;
+// The tet of least quality.
+struct Worst {
+    std::size_t place = 0;  // in the star
+    float quality = 1.0F;
+};
+
+Worst worst_of(const mesh::Complex& c, std::span<const TetId> star) {
+    Worst worst;
+    for (std::size_t i = 0; i < star.size(); ++i) {
+        const float q = c.quality(star[i]);
+        worst.place = q < worst.quality ? i : worst.place;
+        worst.quality = std::min(worst.quality, q);
+    }
+    return worst;
 }
 
 Outcome smoothable(const mesh::Complex& c, VertexId v) {
@@ -74,16 +82,17 @@ Outcome may_smooth(const Workbench& bench, VertexId v, float accept_above) {
 
 Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v,
                        float accept_above, StarScratch& scratch) {
-    if (scratch.neighbours_of != v)
-        complex.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
+    const auto& [star, neighbours] = scratch.star;
     Vec3 mean = Vec3::Zero();
-    for (const VertexId w : scratch.neighbours) mean += complex.position(w);
-    mean /= static_cast<double>(scratch.neighbours.size());
+    for (const VertexId w : neighbours) mean += complex.position(w);
+    mean /= static_cast<double>(neighbours.size());
     // A vertex that is already there is not moved: the move would only mark its star as changed.
     if ((mean - complex.position(v)).norm() < 0.02 * limits.length) return Refusal::no_gain;
-    const float bound = std::min(star_old(complex, scratch.star), accept_above);
-    mesh::StarTrial trial(complex, scratch.star, v, scratch.copy);
-    scratch.qualities.resize(scratch.star.size());
+    const Worst worst = worst_of(complex, star);
+    const float bound = std::min(worst.quality, accept_above);
+    mesh::StarTrial trial(complex, star, v, scratch.copy);
+    trial.suspect_too(worst.place);
+    scratch.qualities.resize(star.size());
     if (least_above(bound, trial, mean, scratch.qualities) < 0.0F ||
         !trial.positive(mean, scratch.qualities))
         return Refusal::quality;
@@ -93,13 +102,12 @@ Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, Verte
 
 Outcome smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
     if (const Outcome o = may_smooth(bench, v, accept_above); o.refused()) return o;
-    StarScratch& scratch = bench.smooth.get().laplacian;
-    bench.complex.cached_star(v, scratch.star, scratch.walk);
-    scratch.neighbours_of = mesh::none;
+    StarScratch& scratch = bench.smooth.get().star;
+    scratch.star = bench.complex.cached_star_and_neighbours(v, scratch.walk);
     const Outcome o = plan_laplacian(bench.complex, bench.limits, v, accept_above, scratch);
     if (o.refused())
         return bench.remember(v, Workbench::Smoother::laplacian, accept_above, o.reason());
-    bench.complex.move(v, scratch.place, scratch.star, scratch.qualities);
+    bench.complex.move(v, scratch.place, scratch.star.tets, scratch.qualities);
     return success;
 }
 
@@ -108,12 +116,13 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
     mesh::Complex& c = bench.complex;
     if (const Outcome o = smoothable(c, v); o.refused()) return o;
     if (const auto known = bench.known_refusal(v, smoother, 0.0F)) return *known;
-    auto& [laplacian, star, qualities, tried, copy] = bench.smooth.get();
-    c.star(v, star);
-    mesh::StarTrial trial(c, star, v, copy);
+    auto& [scratch, tried] = bench.smooth.get();
+    const std::span<const TetId> star = c.cached_star(v, scratch.walk);
+    std::vector<float>& qualities = scratch.qualities;
+    mesh::StarTrial trial(c, star, v, scratch.copy);
     qualities.resize(star.size());
     tried.resize(star.size());
-    const float old = star_old(c, star);
+    const float old = worst_of(c, star).quality;
     float best = old;
     Vec3 place = c.position(v);
     double step = 0.25 * bench.limits.length;

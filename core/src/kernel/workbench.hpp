@@ -189,7 +189,7 @@ private:
 
     bool find_flat(VertexId v);
 
-    std::vector<TetId> flat_star_;
+    mesh::StarWalk flat_walk_;
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
 

@@ -50,7 +50,7 @@ void check_arrays(const TetMesh& mesh, std::string_view name) {
 }
 
 // Drops unused points; `tets` receive the new indices.
-std::vector<Vec3> used_points(const TetMesh& mesh, std::vector<Tet>& tets, AdoptReport& report) {
+std::vector<Vec3> used_points(const TetMesh& mesh, LargeVector<Tet>& tets, AdoptReport& report) {
     std::vector<std::uint32_t> index(mesh.points.size(), none);
     for (const auto& t : mesh.tets) {
         for (const std::uint32_t v : t) index[v] = 0;
@@ -80,7 +80,7 @@ std::vector<T> per_block(std::size_t count) {
     return std::vector<T>(count / adopt_block + 1);
 }
 
-void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name,
+void orient(const std::vector<Vec3>& points, LargeVector<Tet>& tets, std::string_view name,
             AdoptReport& report, Workers* workers) {
     struct Found {
         std::size_t turned = 0, flat = 0, first_flat = 0;
@@ -131,7 +131,7 @@ struct Fault {
 };
 
 // Joins equal faces; positive tets on the two sides of a face have its vertices in opposite order.
-void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name,
+void join_faces(const std::vector<Vec3>& points, LargeVector<Tet>& tets, std::string_view name,
                 Workers* workers) {
     FaceTable table =
         deal_faces(points.size(), tets.size(), [&](std::size_t t) { return &tets[t].v; });
@@ -178,7 +178,7 @@ void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::st
     }
 }
 
-void check_volume(const std::vector<Vec3>& points, const std::vector<Tet>& tets,
+void check_volume(const std::vector<Vec3>& points, const LargeVector<Tet>& tets,
                   std::string_view name) {
     double sum = 0.0;
     for (const Tet& t : tets)
@@ -317,7 +317,7 @@ Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, d
     AdoptReport& out = report != nullptr ? *report : local;
     out = {};
     check_arrays(mesh, name);
-    std::vector<Tet> tets;
+    LargeVector<Tet> tets;
     std::vector<Vec3> points = used_points(mesh, tets, out);
     orient(points, tets, name, out, workers);
     join_faces(points, tets, name, workers);

@@ -94,10 +94,7 @@ unsigned Complex::count_phases(VertexId v, std::span<const TetId> star) const {
     return count;
 }
 
-void Complex::refresh_phases(VertexId v) {
-    star(v, star_scratch_);
-    set_phases(v, count_phases(v, star_scratch_));
-}
+void Complex::refresh_phases(VertexId v) { set_phases(v, count_phases(v, own_star(v))); }
 
 void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star) {
     ++clock_;
@@ -142,24 +139,17 @@ void Complex::date_ahead(std::span<const VertexId> neighbours) {
     }
 }
 
-void Complex::note_move(VertexId v) {
-    std::span<const TetId> star = stars_.tets(v);
-    if (star.empty()) {
-        walk_star(v, star_scratch_, places_);
-        star = star_scratch_;
-    }
-    note_change(v, star);
-}
+void Complex::note_move(VertexId v) { note_change(v, own_star(v)); }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {
     ++clock_;
-    places_.clear();
+    walk_.places.clear();
     relabelled_.clear();
     for (const TetId t : tets) {
         data_[t].label = label;
         touch(t);
         for (const VertexId v : tets_[t].v) {
-            if (places_.insert(v)) relabelled_.push_back(v);
+            if (walk_.places.insert(v)) relabelled_.push_back(v);
         }
     }
     for (const VertexId v : relabelled_) {
@@ -181,7 +171,7 @@ bool Complex::find_relabelled(const Edit& edit) {
                     [&](const NewTet& t) { return same(t.label); })) {
         return false;
     }
-    places_.clear();
+    walk_.places.clear();
     cavity_labels_.clear();
     // A set of labels as bits, exact for labels up to 63; with larger labels, every vertex of the
     // cavity is tested.
@@ -190,8 +180,8 @@ bool Complex::find_relabelled(const Edit& edit) {
     };
     const auto note = [&](VertexId v, Label label, std::size_t when) {
         if (v == created_vertex) return;
-        if (places_.insert(v)) cavity_labels_.push_back({v, {0, 0}});
-        cavity_labels_[places_.find(v)].labels[when] |= bit(label);
+        if (walk_.places.insert(v)) cavity_labels_.push_back({v, {0, 0}});
+        cavity_labels_[walk_.places.find(v)].labels[when] |= bit(label);
     };
     const auto small = [](Label label) { return label >= 0 && label < 64; };
     bool exact = true;
@@ -278,7 +268,7 @@ VertexId Complex::replace(Edit& edit) {
     return created;
 }
 
-Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets,
+Complex Complex::assemble(std::vector<Vec3> points, LargeVector<Tet> tets,
                           std::span<const Label> labels, Workers* workers) {
     constexpr std::size_t assembled_tets = 16384, assembled_stars = 2048;  // per block
     Complex c;

@@ -50,13 +50,13 @@ bool Complex::link(Edit& edit) const {
             at = (at + 1) & mask;
         return face_table_[at];
     };
-    places_.clear();
-    for (const TetId t : edit.removed) places_.insert(t);
+    walk_.places.clear();
+    for (const TetId t : edit.removed) walk_.places.insert(t);
     std::size_t open = 0;
     for (const TetId t : edit.removed) {
         for (unsigned f = 0; f < 4; ++f) {
             const std::uint32_t code = tets_[t].n[f];
-            if (code != none && places_.contains(neighbour_tet(code))) continue;
+            if (code != none && walk_.places.contains(neighbour_tet(code))) continue;
             FaceSlot& slot = find(face_key(tets_[t].v, f));
             if (slot.stamp == face_stamp_) return false;
             slot = {face_key(tets_[t].v, f), code, face_stamp_, false};

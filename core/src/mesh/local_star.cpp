@@ -11,17 +11,19 @@ constexpr std::uint32_t removed_node = none - 1;
 
 }  // namespace
 
-void LocalStar::walk(VertexId v, std::vector<TetId>& out) {
-    complex_.cached_star(v, out, places_);
+std::span<const TetId> LocalStar::star_with_places(VertexId v) {
+    const std::span<const TetId> star = complex_.cached_star(v, walk_);
     places_.clear();
-    for (const TetId t : out) places_.insert(t);
+    for (const TetId t : star) places_.insert(t);
+    return star;
 }
 
 void LocalStar::build(VertexId v) { build(v, std::span<const TetId>(), 0); }
 
 void LocalStar::build(VertexId v, std::span<const TetId> region, Label trial) {
     vertex_ = v;
-    walk(v, tets_);
+    const std::span<const TetId> star = star_with_places(v);
+    tets_.assign(star.begin(), star.end());
     labels_.clear();
     corners_.clear();
     for (std::size_t i = 0; i < tets_.size(); ++i) {
@@ -65,14 +67,14 @@ void LocalStar::build(VertexId v, const Edit& edit) {
     }
     const std::size_t virtual_nodes = tets_.size();
     if (v != created_vertex) {
-        walk(v, star_);
-        node_of_.assign(star_.size(), none);
+        const std::span<const TetId> star = star_with_places(v);
+        node_of_.assign(star.size(), none);
         for (const TetId t : edit.removed) {
             if (const std::uint32_t place = places_.find(t); place != TetIndex::absent)
                 node_of_[place] = removed_node;
         }
-        for (std::size_t place = 0; place < star_.size(); ++place) {
-            const TetId t = star_[place];
+        for (std::size_t place = 0; place < star.size(); ++place) {
+            const TetId t = star[place];
             if (node_of_[place] == removed_node) {
                 node_of_[place] = none;
                 continue;

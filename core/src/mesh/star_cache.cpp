@@ -12,7 +12,8 @@ namespace dsc::mesh {
 namespace {
 
 constexpr std::size_t most_tets = 16384;    // larger stars are walked each time
-constexpr std::size_t chunk_size = 16384;   // ids
+constexpr std::size_t least_chunk = 16384;  // ids; the chunks grow
+constexpr std::size_t largest_chunk = large_page / sizeof(std::uint32_t);
 constexpr std::size_t small_step = 8;       // between the sizes of small blocks, in ids
 constexpr std::size_t largest_small = 128;  // larger blocks have powers of two
 constexpr std::size_t small_sizes = largest_small / small_step;
@@ -46,9 +47,9 @@ public:
             return block;
         }
         if (left_ < size) {
-            left_ = std::max(chunk_size, size);
-            chunks_.push_back(std::make_unique_for_overwrite<std::uint32_t[]>(left_));
-            next_ = chunks_.back().get();
+            left_ = std::max(std::clamp(total_, least_chunk, largest_chunk), size);
+            total_ += left_;
+            next_ = chunks_.emplace_back(left_).data();
         }
         left_ -= size;
         return std::exchange(next_, next_ + size);
@@ -56,9 +57,10 @@ public:
 
 private:
     std::mutex mutex_;
-    std::vector<std::unique_ptr<std::uint32_t[]>> chunks_;
+    std::vector<LargeVector<std::uint32_t>> chunks_;
     std::uint32_t* next_ = nullptr;  // in the last chunk
     std::size_t left_ = 0;           // ids from there on
+    std::size_t total_ = 0;          // ids in all chunks
     std::array<std::uint32_t*, small_sizes + 16> free_{};
 };
 
@@ -82,21 +84,17 @@ void StarCache::reserve(Entry& entry, std::size_t wanted) {
 }
 
 void StarCache::keep_tets(std::uint32_t v, std::span<const std::uint32_t> tets) {
-    if (tets.size() > most_tets) return;
-    Entry& entry = entries_[v];
-    reserve(entry, tets.size());
-    std::copy(tets.begin(), tets.end(), entry.ids);
-    entry.tets = static_cast<std::uint16_t>(tets.size());
-    entry.neighbours = 0;
+    keep(v, tets, {});
 }
 
-void StarCache::keep_neighbours(std::uint32_t v, std::span<const std::uint32_t> tets,
-                                std::span<const std::uint32_t> neighbours) {
+void StarCache::keep(std::uint32_t v, std::span<const std::uint32_t> tets,
+                     std::span<const std::uint32_t> neighbours) {
+    if (std::max(tets.size(), neighbours.size()) > most_tets) return;
     Entry& entry = entries_[v];
-    if (entry.tets != tets.size() || neighbours.size() > most_tets) return;
     reserve(entry, tets.size() + neighbours.size());
     std::copy(tets.begin(), tets.end(), entry.ids);
     std::copy(neighbours.begin(), neighbours.end(), entry.ids + tets.size());
+    entry.tets = static_cast<std::uint16_t>(tets.size());
     entry.neighbours = static_cast<std::uint16_t>(neighbours.size());
 }
 

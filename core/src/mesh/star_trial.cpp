@@ -24,7 +24,7 @@ void StarCopy::move(const Vec3& place) {
     for (std::size_t i = 0; i < (count_ + 1) / 2; ++i) {
         Pair& pair = pairs_[i];
         for (Eigen::Index side = 0; side < 2; ++side) {
-            TwoVectors& own = pair.corners[pair.own[static_cast<std::size_t>(side)]];
+            geometry::TwoVec3& own = pair.corners[pair.own[static_cast<std::size_t>(side)]];
             for (unsigned axis = 0; axis < 3; ++axis) own[axis][side] = place[axis];
         }
     }

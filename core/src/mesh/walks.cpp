@@ -35,7 +35,7 @@ VertexId fourth(const Tet& tet, VertexId a, VertexId b, VertexId c) {
 // the ring as long as keep(tet) says so.
 enum class RingEnd { closed, open, stopped };
 template <class Keep>
-RingEnd walk_ring(const std::vector<Tet>& tets, TetId first, VertexId a, VertexId b, VertexId p,
+RingEnd walk_ring(const LargeVector<Tet>& tets, TetId first, VertexId a, VertexId b, VertexId p,
                   VertexId q, EdgeRing& out, const Keep& keep) {
     TetId current = first;
     while (true) {
@@ -72,65 +72,92 @@ void Complex::star(VertexId v, std::vector<TetId>& out, TetIndex& places) const 
     for (const TetId t : known) places.insert(t);
 }
 
-void Complex::cached_star(VertexId v, std::vector<TetId>& out, TetIndex& scratch) const {
-    const std::span<const TetId> known = stars_.tets(v);
-    if (known.empty()) {
-        walk_star(v, out, scratch);
-        stars_.keep_tets(v, out);
-    } else {
-        out.assign(known.begin(), known.end());
-    }
+void Complex::star(VertexId v, std::vector<TetId>& out) const {
+    const std::span<const TetId> star = own_star(v);
+    out.assign(star.begin(), star.end());
 }
 
-void Complex::cached_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
-                                TetIndex& scratch) const {
-    const std::span<const VertexId> known = stars_.neighbours(v);
-    if (!known.empty()) {
-        out.assign(known.begin(), known.end());
-        return;
-    }
-    scratch.clear();
-    scratch.insert(v);
-    // As in walk_star().
+std::span<const TetId> Complex::own_star(VertexId v) const { return cached_star(v, walk_); }
+
+std::span<const TetId> Complex::cached_star(VertexId v, StarWalk& walk) const {
+    if (const std::span<const TetId> known = stars_.tets(v); !known.empty()) return known;
+    walk_star(v, walk.tets, walk.places);
+    stars_.keep_tets(v, walk.tets);
+    const std::span<const TetId> stored = stars_.tets(v);
+    return stored.empty() ? walk.tets : stored;
+}
+
+Star Complex::cached_star_and_neighbours(VertexId v, StarWalk& walk) const {
+    if (const std::span<const VertexId> known = stars_.neighbours(v); !known.empty())
+        return {stars_.tets(v), known};
+    walk_codes(v, walk.tets, walk.places);
+    find_neighbours(v, walk.tets, walk.neighbours, walk.places);
+    for (TetId& t : walk.tets) t = neighbour_tet(t);
+    stars_.keep(v, walk.tets, walk.neighbours);
+    if (stars_.tets(v).empty()) return {walk.tets, walk.neighbours};
+    return {stars_.tets(v), stars_.neighbours(v)};
+}
+
+// `codes` are those of walk_codes(). Each tet has one corner that the tet before it on the walk
+// does not have: the one opposite the face through which it was reached.
+void Complex::find_neighbours(VertexId v, std::span<const std::uint32_t> codes,
+                              std::vector<VertexId>& out, TetIndex& seen) const {
+    seen.clear();
+    if (out.size() < codes.size() + 3) out.resize(codes.size() + 3);
     std::size_t count = 0;
-    for (const TetId t : star) {
-        if (out.size() < count + 4) out.resize(2 * count + 64);
-        for (const VertexId w : tets_[t].v) {
-            out[count] = w;
-            count += scratch.insert(w) ? 1 : 0;
-        }
+    for (const VertexId w : tets_[neighbour_tet(codes.front())].v) {
+        if (w == v) continue;
+        seen.insert(w);
+        out[count++] = w;
+    }
+    // As in walk_codes().
+    for (const std::uint32_t code : codes.subspan(1)) {
+        out[count] = tets_[neighbour_tet(code)].v[neighbour_face(code)];
+        count += seen.insert(out[count]) ? 1 : 0;
     }
     out.resize(count);
     sort_by_birth(out);
-    stars_.keep_neighbours(v, star, out);
 }
 
-// Nearly all lists are short; then the births are read once each and not in every comparison.
+// Nearly all lists are short. Then the place of each vertex is the number of smaller births: the
+// processor cannot guess the outcome of a comparison, so it must not decide about a branch.
 void Complex::sort_by_birth(std::vector<VertexId>& list) const {
-    std::array<std::uint64_t, 64> keys;
-    if (list.size() > keys.size()) {
+    constexpr std::size_t most = 32;
+    if (list.size() > most) {
         std::sort(list.begin(), list.end(),
                   [this](VertexId x, VertexId y) { return birth(x) < birth(y); });
         return;
     }
-    const auto end = std::transform(list.begin(), list.end(), keys.begin(), [this](VertexId v) {
-        return std::uint64_t{birth(v)} << 32U | v;
-    });
-    std::sort(keys.begin(), end);
-    std::transform(keys.begin(), end, list.begin(),
-                   [](std::uint64_t key) { return static_cast<VertexId>(key); });
+    std::array<VertexId, most> unsorted;
+    std::array<std::uint32_t, most> births, smaller;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        unsorted[i] = list[i];
+        births[i] = birth(list[i]);
+        smaller[i] = 0;
+        for (std::size_t j = 0; j < i; ++j) {
+            const std::uint32_t is_smaller = births[j] < births[i] ? 1 : 0;
+            smaller[i] += is_smaller;
+            smaller[j] += 1 - is_smaller;
+        }
+    }
+    for (std::size_t i = 0; i < list.size(); ++i) list[smaller[i]] = unsorted[i];
 }
 
 void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
+    walk_codes(v, out, places);
+    for (TetId& t : out) t = neighbour_tet(t);
+}
+
+// `out` receives codes: the tet, and the face through which it was reached, because nothing new
+// lies behind that face. The first tet was reached through no face at v, so it has the face
+// opposite v.
+void Complex::walk_codes(VertexId v, std::vector<std::uint32_t>& out, TetIndex& places) const {
     places.clear();
     // Kept in a register: the compiler cannot know that writing to the table does not change it.
     const Tet* const tets = tets_.data();
     const TetId first = vertices_[v].seed;
     places.insert(first);
-    // Until the end `out` contains codes: the tet, and the face through which it was reached,
-    // because nothing new lies behind that face. The first tet was reached through no face at v, so
-    // it has the face opposite v. A code is written, and counts if its tet is new: a branch could
-    // not be predicted.
+    // A code is written, and counts if its tet is new: a branch could not be predicted.
     if (out.size() < 64) out.resize(64);
     std::size_t count = 0;
     const auto visit = [&](std::uint32_t code) {
@@ -151,7 +178,6 @@ void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) c
             visit(tet.n[f]);
     }
     out.resize(count);
-    for (TetId& t : out) t = neighbour_tet(t);
 }
 
 void Complex::ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const {
@@ -188,8 +214,7 @@ bool Complex::inner_ring(TetId t, VertexId a, VertexId b, std::size_t most, Edge
 }
 
 TetId Complex::find_edge(VertexId a, VertexId b) const {
-    star(a, star_scratch_);
-    for (const TetId t : star_scratch_) {
+    for (const TetId t : own_star(a)) {
         if (has_vertex(tets_[t], b)) return t;
     }
     return none;

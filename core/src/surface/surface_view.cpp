@@ -15,10 +15,9 @@ constexpr std::size_t walk_block = 1024;  // vertices
 
 // Interface faces round v in which v has the least birth, each once, oriented out of the larger
 // label.
-void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::TetId>& star,
-                  mesh::TetIndex& places, std::vector<RawFace>& out) {
-    c.cached_star(v, star, places);
-    for (const mesh::TetId t : star) {
+void faces_led_by(const mesh::Complex& c, mesh::VertexId v, mesh::StarWalk& walk,
+                  std::vector<RawFace>& out) {
+    for (const mesh::TetId t : c.cached_star(v, walk)) {
         const mesh::Tet& tet = c.tet(t);
         for (unsigned f = 0; f < 4; ++f) {
             if (tet.v[f] == v) continue;
@@ -125,7 +124,7 @@ void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMe
     } const job{c, view, index, blocks, memory, counts};
     counts.resize(n);
     for_blocks(workers, n, walk_block, [&job](std::size_t begin, std::size_t end) {
-        auto& [star, places, raw] = job.blocks[begin / walk_block];
+        auto& [walk, raw] = job.blocks[begin / walk_block];
         raw.clear();
         for (std::size_t i = begin; i < end; ++i) {
             const auto first = static_cast<std::ptrdiff_t>(raw.size());
@@ -136,7 +135,7 @@ void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMe
                 raw.insert(raw.end(), faces.begin(), faces.end());
             }
             if (!known) {
-                faces_led_by(job.c, v, star, places, raw);
+                faces_led_by(job.c, v, walk, raw);
                 std::sort(raw.begin() + first, raw.end(), [&](const RawFace& a, const RawFace& b) {
                     return std::pair(job.index[a.vertices[1]], job.index[a.vertices[2]]) <
                            std::pair(job.index[b.vertices[1]], job.index[b.vertices[2]]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <iterator>
 
 #include <dsc/geometry/quality.hpp>
@@ -71,20 +72,20 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
     const auto square = [](double x) { return x * x; };
     const auto& v = c.tet(t).v;
     std::uint8_t found = 0;
+    unsigned on_interface = 0, interior = 0;  // bits of the corners
+    for (unsigned k = 0; k < 4; ++k) {
+        on_interface |= (c.on_interface(v[k]) ? 1U : 0U) << k;
+        interior |= (c.interior(v[k]) ? 1U : 0U) << k;
+    }
     const auto q = static_cast<double>(c.quality(t));
     if (q < limits_.min_tet_quality) found |= low_quality;
-    if (q < limits_.smooth_below) {
-        for (unsigned k = 0; k < 4; ++k)
-            found |= static_cast<std::uint8_t>((c.interior(v[k]) ? to_smooth : 0U) << k);
-    }
+    if (q < limits_.smooth_below) found |= static_cast<std::uint8_t>(to_smooth * interior);
     if (geometry::tet_volume(c.position(v[0]), c.position(v[1]), c.position(v[2]),
                              c.position(v[3])) < small_volume_of(round, t) &&
         may_thin_out(round, t))
         found |= small_volume;
     // Only a tet with three vertices on the interface can have a face there.
-    const bool has_face =
-        round.size_edits &&
-        std::count_if(v.begin(), v.end(), [&](mesh::VertexId x) { return c.on_interface(x); }) >= 3;
+    const bool has_face = round.size_edits && std::popcount(on_interface) >= 3;
     for (unsigned f = 0; f < 4 && has_face; ++f) {
         if (c.label(t) <= c.label_across(t, f)) continue;
         for (unsigned k = 0; k < 3; ++k) {
@@ -97,7 +98,7 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
             if (l2 < shortest2 || l2 > longest2) found |= interface_edges;
         }
     }
-    if (!(limits_.max_free_edge > 0.0)) return found;
+    if (!(limits_.max_free_edge > 0.0) || on_interface == 0 || on_interface == 15) return found;
     for (const auto& ends : mesh::edge_vertices) {
         const mesh::VertexId a = v[ends[0]], b = v[ends[1]];
         if (c.on_interface(a) == c.on_interface(b)) continue;

@@ -20,7 +20,7 @@ mesh::Complex two_tets(const Vec3& a, const Vec3& b, const Vec3& c) {
     // The face that two tets share lies opposite corner 3 of both.
     const mesh::Tet below{{0, 1, 2, 3}, {mesh::none, mesh::none, mesh::none, 1U << 2U | 3U}};
     const mesh::Tet above{{0, 2, 1, 4}, {mesh::none, mesh::none, mesh::none, 0U << 2U | 3U}};
-    const std::vector<mesh::Tet> tets = {below, above};
+    const LargeVector<mesh::Tet> tets = {below, above};
     const std::array<mesh::Label, 2> labels = {1, 0};
     const mesh::Complex complex =
         mesh::Complex::assemble({a, b, c, middle + up, middle - up}, tets, labels);

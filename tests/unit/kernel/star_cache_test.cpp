@@ -47,17 +47,22 @@ Stars scan(const mesh::Complex& c) {
 // The cached stars and neighbours have the tets of the scan, in the order of a walk without cache.
 void check_cache(const mesh::Complex& c, const Stars& stars) {
     const mesh::Complex walked = c;  // a copy has no stored stars
-    mesh::TetIndex scratch;
+    mesh::StarWalk walk;
+    mesh::TetIndex places;
     std::vector<TetId> star, expected, sorted;
     std::vector<VertexId> neighbours, others;
     for (VertexId v = 0; v < c.vertex_slots(); ++v) {
         if (!c.vertex_alive(v)) continue;
+        walked.star(v, expected, places);
         for (int again = 0; again < 2; ++again) {
-            c.cached_star(v, star, scratch);
-            c.cached_neighbours(v, star, neighbours, scratch);
+            const std::span<const TetId> alone = c.cached_star(v, walk);
+            star.assign(alone.begin(), alone.end());
+            REQUIRE(star == expected);
+            const mesh::Star all = c.cached_star_and_neighbours(v, walk);
+            star.assign(all.tets.begin(), all.tets.end());
+            neighbours.assign(all.neighbours.begin(), all.neighbours.end());
+            REQUIRE(star == expected);
         }
-        walked.star(v, expected, scratch);
-        REQUIRE(star == expected);
         REQUIRE(star.front() == c.seed(v));
         sorted = star;
         std::sort(sorted.begin(), sorted.end());

@@ -47,6 +47,7 @@ mesh::Complex plates() {
 
 // Shakes every vertex a little, each third one rests, and counts what the loop does.
 struct Shake {
+    static constexpr bool needs_neighbours = true;
     const mesh::Complex& complex;
     std::span<const VertexId> vertices;
     std::vector<std::uint8_t> attempts, settled;
@@ -57,18 +58,17 @@ struct Shake {
     bool ready(std::size_t i) const { return i % 3 != 0; }
     bool attempt(std::size_t i, StarScratch& scratch) {
         ++attempts[i];
-        for (const TetId t : scratch.star) {
+        const auto& [star, neighbours] = scratch.star;
+        for (const TetId t : star) {
             if (busy[t].fetch_add(1) != 0) ++collisions;
         }
         RandomStream random(RandomKey{7, 1, 0, complex.birth(vertices[i])});
         // Depends on the neighbours, so that the order in which they move shows in the bits.
-        complex.cached_neighbours(vertices[i], scratch.star, scratch.neighbours, scratch.walk);
         const Vec3 p = complex.position(vertices[i]);
-        const Vec3 w =
-            complex.position(scratch.neighbours[random.index(scratch.neighbours.size())]);
+        const Vec3 w = complex.position(neighbours[random.index(neighbours.size())]);
         scratch.place = p + 0.1 * (w - p);
-        scratch.qualities.assign(scratch.star.size(), 0.5F);
-        for (const TetId t : scratch.star) busy[t].fetch_sub(1);
+        scratch.qualities.assign(star.size(), 0.5F);
+        for (const TetId t : star) busy[t].fetch_sub(1);
         return i % 5 != 0;
     }
     void settle(std::size_t i, bool attempted, std::uint32_t date) {
@@ -159,8 +159,21 @@ TEST_CASE("star loop: every vertex once, no tet held by two, the bits and dates 
 
 namespace {
 
+struct Throws {
+    static constexpr bool needs_neighbours = false;
+    std::size_t at;
+    std::vector<int> settled;
+    bool ready(std::size_t i) const {
+        if (i == at) throw std::runtime_error("at its turn");
+        return false;
+    }
+    bool attempt(std::size_t, StarScratch&) const { return false; }
+    void settle(std::size_t i, bool, std::uint32_t) { ++settled[i]; }
+};
+
 // Whether a vertex is tried depends on its date, as with remembered refusals.
 struct AfterNeighbours {
+    static constexpr bool needs_neighbours = true;
     const mesh::Complex& complex;
     std::span<const VertexId> vertices;
     std::vector<std::uint32_t> known;  // per vertex: the clock at its last turn
@@ -171,10 +184,9 @@ struct AfterNeighbours {
     }
     bool attempt(std::size_t i, StarScratch& scratch) {
         ++tried[i];
-        complex.cached_neighbours(vertices[i], scratch.star, scratch.neighbours, scratch.walk);
         scratch.place = 0.9 * complex.position(vertices[i]) +
-                        0.1 * complex.position(scratch.neighbours.front());
-        scratch.qualities.assign(scratch.star.size(), 0.5F);
+                        0.1 * complex.position(scratch.star.neighbours.front());
+        scratch.qualities.assign(scratch.star.tets.size(), 0.5F);
         return i % 4 == 3;
     }
     void settle(std::size_t i, bool, std::uint32_t date) { known[vertices[i]] = date; }
@@ -218,16 +230,6 @@ TEST_CASE("star loop: a vertex sees the dates of its neighbours' moves as with o
 TEST_CASE("star loop: an exception of one vertex ends the loop, and the next loop works") {
     mesh::Complex c = cells();
     const std::vector<VertexId> vertices = inner_vertices(c);
-    struct Throws {
-        std::size_t at;
-        std::vector<int> settled;
-        bool ready(std::size_t i) const {
-            if (i == at) throw std::runtime_error("at its turn");
-            return false;
-        }
-        bool attempt(std::size_t, StarScratch&) const { return false; }
-        void settle(std::size_t i, bool, std::uint32_t) { ++settled[i]; }
-    };
     Workers workers(3);
     StarLoop loop(c);
     Throws bad{vertices.size() / 2, std::vector<int>(vertices.size(), 0)};

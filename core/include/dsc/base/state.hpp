@@ -24,9 +24,9 @@ public:
     requires is_plain_state<T>
     void value(const T& v) { append(&v, sizeof(T)); }
 
-    template <class T>
+    template <class T, class Allocator>
     requires is_plain_state<T>
-    void list(const std::vector<T>& values) {
+    void list(const std::vector<T, Allocator>& values) {
         value<std::uint64_t>(values.size());
         if (!values.empty()) append(values.data(), values.size() * sizeof(T));
     }
@@ -62,9 +62,9 @@ public:
     requires is_plain_state<T>
     void value(T& v) { v = value<T>(); }
 
-    template <class T>
+    template <class T, class Allocator>
     requires is_plain_state<T>
-    void list(std::vector<T>& values) {
+    void list(std::vector<T, Allocator>& values) {
         const auto count = value<std::uint64_t>();
         if (count > bytes_.size() / sizeof(T)) damaged();
         const std::string_view from = take(static_cast<std::size_t>(count) * sizeof(T));

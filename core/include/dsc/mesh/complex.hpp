@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/base/large_vector.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/vec.hpp>
 #include <dsc/mesh/star_cache.hpp>
@@ -95,6 +96,20 @@ struct Edit {
     void clear();
 };
 
+/// The tets round a vertex in the order of the walk, and the vertices joined to it in ascending
+/// birth order.
+struct Star {
+    std::span<const TetId> tets;
+    std::span<const VertexId> neighbours;
+};
+
+/// Arrays for walks round a vertex, for one thread at a time. Reuse one object.
+struct StarWalk {
+    TetIndex places;
+    std::vector<TetId> tets;
+    std::vector<VertexId> neighbours;
+};
+
 /// See the head of the file.
 class Complex {
 public:
@@ -158,8 +173,11 @@ public:
         return data_[t].label != label_across(t, face);
     }
     double volume(TetId t) const;
+    /// Whether a loop over many tets in no order of memory waits for the memory, so that it pays to
+    /// ask for data ahead. Smaller complexes lie in the caches.
+    bool exceeds_caches() const { return tets_.size() >= 400'000; }
     /// Asks the memory for a tet that will be read soon, or for the vertices of one that is there
-    /// already. A loop over many tets in no order of memory otherwise waits for each of them.
+    /// already.
     void prefetch(TetId t) const {
         __builtin_prefetch(&tets_[t]);
         __builtin_prefetch(&data_[t]);
@@ -188,16 +206,14 @@ public:
     /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`.
     /// [parallel]
     void star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
-    /// The same tets without the places, from the cache where the star is known. It stores a star
-    /// that is not. `scratch` is used for the walk. [parallel] if no two threads ask for the same
-    /// vertex.
-    void cached_star(VertexId v, std::vector<TetId>& out, TetIndex& scratch) const;
-    /// The same with a table that belongs to the complex. [step]
-    void star(VertexId v, std::vector<TetId>& out) const { cached_star(v, out, places_); }
-    /// The vertices joined to v, in ascending birth order; `star` are its tets. `scratch` as above.
-    /// [parallel] if no two threads ask for the same vertex.
-    void cached_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
-                           TetIndex& scratch) const;
+    /// The same tets without the places. [step]
+    void star(VertexId v, std::vector<TetId>& out) const;
+    /// The same tets without a copy: they lie in the cache, or in `walk` if there are very many.
+    /// They stay there until the next call for the same vertex or with the same `walk`. [parallel]
+    /// if no two threads ask for the same vertex.
+    std::span<const TetId> cached_star(VertexId v, StarWalk& walk) const;
+    /// The same with the neighbours.
+    Star cached_star_and_neighbours(VertexId v, StarWalk& walk) const;
     /// The place in v's star of the tet that refused a move of v last. It is only a hint where to
     /// look first: it may be any number, and nothing may depend on it but the time. [parallel] as
     /// cached_star().
@@ -253,7 +269,7 @@ public:
     // ---- making and copying ---------------------------------------------------------------------
     /// Builds a complex from arrays that are already positive, conforming and box-filling (for
     /// files see adopt()). `neighbours` as in Tet::n.
-    static Complex assemble(std::vector<Vec3> points, std::vector<Tet> tets,
+    static Complex assemble(std::vector<Vec3> points, LargeVector<Tet> tets,
                             std::span<const Label> labels, Workers* workers = nullptr);
     /// Compact arrays: vertices in birth order, tets in the order of their sorted births. The same
     /// complex gives the same bytes, whatever its slots. `ids`, if given, receives the complex'
@@ -295,13 +311,17 @@ private:
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
     void refresh_phases(VertexId v);
     void set_phases(VertexId v, unsigned phases);
+    std::span<const TetId> own_star(VertexId v) const;
     void walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
+    void walk_codes(VertexId v, std::vector<std::uint32_t>& out, TetIndex& places) const;
+    void find_neighbours(VertexId v, std::span<const std::uint32_t> codes,
+                         std::vector<VertexId>& out, TetIndex& seen) const;
     void sort_by_birth(std::vector<VertexId>& list) const;
 
-    std::vector<Vertex> vertices_;
-    std::vector<Tet> tets_;
-    std::vector<TetData> data_;               // per tet
-    std::vector<std::uint32_t> shape_dates_;  // per vertex
+    LargeVector<Vertex> vertices_;
+    LargeVector<Tet> tets_;
+    LargeVector<TetData> data_;               // per tet
+    LargeVector<std::uint32_t> shape_dates_;  // per vertex
     std::vector<VertexId> free_vertices_;
     std::vector<TetId> free_tets_;
     std::vector<VertexId> interface_;
@@ -313,8 +333,7 @@ private:
     };
     std::vector<CavityLabels> cavity_labels_;
     std::vector<VertexId> relabelled_;
-    mutable std::vector<TetId> star_scratch_;
-    mutable TetIndex places_;
+    mutable StarWalk walk_;
     mutable StarCache stars_;        // of the vertices that were asked for
     std::uint32_t taken_clock_ = 0;  // clock when the change list was last taken; tets of a later
                                      // date are in the list

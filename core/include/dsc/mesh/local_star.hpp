@@ -52,7 +52,7 @@ private:
         corners_.push_back(corners);
         adjacent_.push_back({none, none, none, none});
     }
-    void walk(VertexId v, std::vector<TetId>& out);
+    std::span<const TetId> star_with_places(VertexId v);
     unsigned flood(bool complement, Label label);
 
     const Complex& complex_;
@@ -65,7 +65,7 @@ private:
     std::vector<std::uint32_t> stack_;
     mutable std::vector<VertexId> ends_;
     TetIndex places_;  // of the star's tets
-    std::vector<TetId> star_;
+    StarWalk walk_;
     std::vector<std::uint32_t> node_of_;  // by place; none where an edit removes the tet
 };
 

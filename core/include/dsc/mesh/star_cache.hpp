@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
+
+#include <dsc/base/large_vector.hpp>
 
 namespace dsc::mesh {
 
@@ -44,13 +45,13 @@ public:
         return {entry.ids + entry.tets, entry.neighbours};
     }
 
-    /// Stores the tets; no neighbours are known then.
+    /// Stores the tets, which must lie outside the cache; no neighbours are known then. A very
+    /// large star is not stored.
     void keep_tets(std::uint32_t v, std::span<const std::uint32_t> tets);
-    /// Stores the neighbours behind the tets, which must lie outside the cache; does nothing if the
-    /// tets are not known. Most vertices of the interface never need their neighbours, so they get
-    /// room only now.
-    void keep_neighbours(std::uint32_t v, std::span<const std::uint32_t> tets,
-                         std::span<const std::uint32_t> neighbours);
+    /// Stores the tets and the neighbours. Most vertices of the interface never need their
+    /// neighbours, so they get room only now.
+    void keep(std::uint32_t v, std::span<const std::uint32_t> tets,
+              std::span<const std::uint32_t> neighbours);
     /// The star has changed. Its memory is used again.
     void forget(std::uint32_t v) { entries_[v].tets = entries_[v].neighbours = 0; }
 
@@ -72,7 +73,7 @@ private:
     class Pool;
     void reserve(Entry& entry, std::size_t wanted);
 
-    std::vector<Entry> entries_;
+    LargeVector<Entry> entries_;
     std::unique_ptr<Pool> pool_;
 };
 

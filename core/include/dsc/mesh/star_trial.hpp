@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/geometry/tet_pair.hpp>
 #include <dsc/mesh/complex.hpp>
 #include <dsc/mesh/star_quality.hpp>
 
@@ -26,47 +27,43 @@ public:
     /// false; returns whether all were accepted. The qualities have the bits of quality_of().
     template <class Accept>
     bool qualities(const Accept& accept) {
-        Two least = Two::Constant(std::numeric_limits<double>::infinity());
-        for (std::size_t i = 0; i < count_; i += 2) {
-            const Two q = quality(pairs_[i / 2], least);
-            if (!accept(i, q[0]) || (i + 1 < count_ && !accept(i + 1, q[1]))) return false;
-        }
-        least_square_ = least.minCoeff();
-        return true;
+        return each_quality(count_, accept, [this](std::size_t i) -> const Corners& {
+            return pairs_[i / 2].corners;
+        });
+    }
+    /// The same without a copy, for a single place.
+    template <class Accept>
+    bool qualities_at(const Complex& complex, std::span<const TetId> star, VertexId v,
+                      const Vec3& place, const Accept& accept) {
+        return each_quality(star.size(), accept, [&](std::size_t i) {
+            const auto p = corners_at(complex, star[i], v, place);
+            const auto q = corners_at(complex, star[std::min(i + 1, star.size() - 1)], v, place);
+            using geometry::side_by_side;
+            return Corners{side_by_side(*p[0], *q[0]), side_by_side(*p[1], *q[1]),
+                           side_by_side(*p[2], *q[2]), side_by_side(*p[3], *q[3])};
+        });
     }
     /// The least mean squared edge of the tets, after qualities() has returned true.
     double least_mean_square() const { return least_square_; }
 
 private:
-    using Two = Eigen::Array2d;
-    using TwoVectors = std::array<Two, 3>;
+    using Corners = std::array<geometry::TwoVec3, 4>;
     struct Pair {
-        std::array<TwoVectors, 4> corners;
+        Corners corners;
         std::array<std::uint32_t, 2> own;  // which corner is the vertex
     };
 
-    static TwoVectors difference(const TwoVectors& to, const TwoVectors& from) {
-        return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-    }
-    // The sum has the order of Eigen's sums over a vector of three.
-    static Two dot(const TwoVectors& x, const TwoVectors& y) {
-        return (x[0] * y[0] + x[1] * y[1]) + x[2] * y[2];
-    }
-    static TwoVectors cross(const TwoVectors& x, const TwoVectors& y) {
-        return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-    }
-    // geometry::tet_quality() of both tets.
-    static Two quality(const Pair& pair, Two& least_square) {
-        const auto& [a, b, c, d] = pair.corners;
-        const TwoVectors ab = difference(b, a), ac = difference(c, a), ad = difference(d, a);
-        const TwoVectors bc = difference(c, b), bd = difference(d, b), cd = difference(d, c);
-        const Two mean_square =
-            (dot(ab, ab) + dot(ac, ac) + dot(ad, ad) + dot(bc, bc) + dot(bd, bd) + dot(cd, cd)) /
-            6.0;
-        least_square = least_square.min(mean_square);
-        const Two value =
-            1.4142135623730951 * dot(cross(ab, ac), ad) / (mean_square * mean_square.sqrt());
-        return (mean_square > 0.0).select(value, Two::Zero());
+    // `corners(i)` are those of tets i and i + 1.
+    template <class Accept, class CornersOf>
+    bool each_quality(std::size_t count, const Accept& accept, const CornersOf& corners) {
+        geometry::Two least = geometry::Two::Constant(std::numeric_limits<double>::infinity());
+        for (std::size_t i = 0; i < count; i += 2) {
+            const auto [q, mean_square] = geometry::tet_shapes(corners(i));
+            least = least.min(mean_square);
+            if (!accept(i, q[0]) || (i + 1 < count && !accept(i + 1, q[1]))) return false;
+        }
+        least_square_ = least.minCoeff();
+        return true;
     }
 
     std::vector<Pair> pairs_;
@@ -80,6 +77,9 @@ public:
     /// `copy` belongs to the trial as long as it lasts.
     StarTrial(const Complex& complex, std::span<const TetId> star, VertexId v, StarCopy& copy)
         : complex_(complex), star_(star), v_(v), copy_(copy) {}
+
+    /// Gives the number of a tet that is likely to refuse, to be asked early at the first place.
+    void suspect_too(std::size_t i) { suspect_ = i; }
 
     /// Whether accept(i, quality) is true for all tets with the vertex at `place`; i is the tet's
     /// number in the star. The tet that refused this vertex last time is asked first; often it
@@ -95,20 +95,24 @@ public:
             complex_.keep_suspect(v_, i);
             return false;
         };
-        // A copy does not pay for a single place.
-        if (++places_ == 1) return qualities(place, keep);
+        if (++places_ == 1) {
+            if (suspect_ < star_.size() && suspect_ != suspect &&
+                !keep(suspect_, quality_of_tet(suspect_, place)))
+                return false;
+            // A copy does not pay for a single place.
+            return copy_.qualities_at(complex_, star_, v_, place, keep);
+        }
         if (places_ == 2) copy_.gather(complex_, star_, v_);
         copy_.move(place);
-        if (!copy_.qualities(keep)) return false;
-        least_square_ = copy_.least_mean_square();
-        return true;
+        return copy_.qualities(keep);
     }
 
     /// Whether all tets are exactly positive at the place that was accepted last. `qualities` are
     /// those of the tets. As with exactly_positive(), the quality nearly always decides.
     bool positive(const Vec3& place, std::span<const float> qualities) const {
-        if (least_square_ > no_underflow && std::all_of(qualities.begin(), qualities.end(),
-                                                        [](float q) { return q > clear_quality; }))
+        if (copy_.least_mean_square() > no_underflow &&
+            std::all_of(qualities.begin(), qualities.end(),
+                        [](float q) { return q > clear_quality; }))
             return true;
         return std::all_of(star_.begin(), star_.end(), [&](TetId t) {
             return exactly_positive(corners_at(complex_, t, v_, place));
@@ -116,31 +120,16 @@ public:
     }
 
 private:
-    geometry::TetShape shape(std::size_t i, const Vec3& place) const {
-        const auto p = corners_at(complex_, star_[i], v_, place);
-        return geometry::tet_shape(*p[0], *p[1], *p[2], *p[3]);
-    }
     float quality_of_tet(std::size_t i, const Vec3& place) const {
-        return static_cast<float>(shape(i, place).quality);
-    }
-    template <class Accept>
-    bool qualities(const Vec3& place, const Accept& accept) {
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < star_.size(); ++i) {
-            const geometry::TetShape tet = shape(i, place);
-            if (!accept(i, tet.quality)) return false;
-            least = std::min(least, tet.mean_square);
-        }
-        least_square_ = least;
-        return true;
+        return static_cast<float>(quality_of(corners_at(complex_, star_[i], v_, place)));
     }
 
     const Complex& complex_;
     std::span<const TetId> star_;
     VertexId v_;
     StarCopy& copy_;
-    unsigned places_ = 0;        // that passed the first test
-    double least_square_ = 0.0;  // of the mean squared edges at the last accepted place
+    std::size_t suspect_ = none;
+    unsigned places_ = 0;  // that passed the first test
 };
 
 }  // namespace dsc::mesh

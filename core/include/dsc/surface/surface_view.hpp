@@ -114,8 +114,7 @@ public:
     struct Arrays {
         /// Of a block of the view's vertices.
         struct Block {
-            std::vector<mesh::TetId> star;
-            mesh::TetIndex places;    ///< of the star's tets
+            mesh::StarWalk walk;
             std::vector<Face> faces;  ///< that the vertices of the block lead
         };
         std::vector<Block> blocks;

@@ -1,0 +1,55 @@
+#pragma once
+// A vector for large arrays that are read in no order of memory.
+
+#include <cstddef>
+#include <limits>
+#include <new>
+#include <vector>
+
+namespace dsc {
+
+/// Memory from this number of bytes on is asked for in pages of this size, where the system has
+/// such pages. The processor remembers the addresses of only a few thousand pages, and with small
+/// pages it must look up nearly each access to an array of some megabytes.
+inline constexpr std::size_t large_page = std::size_t{1} << 21U;
+
+/// Memory at a multiple of large_page, in pages of this size if the system offers them. Free it by
+/// free_large_pages(). Throws std::bad_alloc. [parallel]
+void* allocate_large_pages(std::size_t bytes);
+void free_large_pages(void* memory) noexcept;
+
+/// An allocator for arrays that may become large.
+template <class T>
+class LargePages {
+public:
+    using value_type = T;
+
+    LargePages() = default;
+    template <class U>
+    LargePages(const LargePages<U>&) noexcept {}
+
+    T* allocate(std::size_t count) {
+        if (count > std::numeric_limits<std::size_t>::max() / sizeof(T))
+            throw std::bad_array_new_length();
+        const std::size_t bytes = count * sizeof(T);
+        return static_cast<T*>(bytes < large_page ? ::operator new(bytes)
+                                                  : allocate_large_pages(bytes));
+    }
+    void deallocate(T* memory, std::size_t count) noexcept {
+        if (count * sizeof(T) < large_page) {
+            ::operator delete(memory);
+        } else {
+            free_large_pages(memory);
+        }
+    }
+
+    template <class U>
+    bool operator==(const LargePages<U>&) const noexcept {
+        return true;
+    }
+};
+
+template <class T>
+using LargeVector = std::vector<T, LargePages<T>>;
+
+}  // namespace dsc
