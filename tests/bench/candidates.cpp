@@ -120,7 +120,7 @@ std::vector<Place> faces(const Complex& complex) {
     for (const TetId t : band(complex)) {
         for (unsigned f = 0; f < 4; ++f) {
             if (out.size() >= most_places) return out;
-            const std::uint32_t code = complex.tet(t).n[f];
+            const std::uint32_t code = complex.across(t, f);
             if (code == mesh::none || complex.interface_face(t, f)) continue;
             const TetId other = mesh::neighbour_tet(code);
             if (taken[t] != 0 || taken[other] != 0) continue;

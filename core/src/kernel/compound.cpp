@@ -173,7 +173,7 @@ Outcome merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Req
         }
     };
     if (std::min({w0, w1, w2}) > margin) {
-        const std::uint32_t code = c.tet(t).n[apex];
+        const std::uint32_t code = c.across(t, apex);
         if (code == mesh::none) return Refusal::box;
         const TetId other = mesh::neighbour_tet(code);
         bench.edit.created_at = w0 * p0 + w1 * p1 + w2 * p2;

@@ -162,7 +162,7 @@ Outcome check_creases(Workbench& bench, VertexId kept, VertexId removed) {
             if (c.label(t) > across) p.before.push_back(make_face(c.tet(t).v, f, now));
             // The neighbour outside the cavity has the larger label, so the orientation of the face
             // is reversed.
-            const std::uint32_t code = c.tet(t).n[f];
+            const std::uint32_t code = c.across(t, f);
             if (c.label(t) >= across || code == mesh::none) continue;
             const TetId other = mesh::neighbour_tet(code);
             if (std::find(edit.removed.begin(), edit.removed.end(), other) != edit.removed.end())
@@ -206,7 +206,7 @@ Outcome check_creases(Workbench& bench, std::span<const TetId> tets, mesh::Label
     for (const TetId t : tets) {
         worst = std::min(worst, c.quality(t));
         for (unsigned f = 0; f < 4; ++f) {
-            const std::uint32_t code = c.tet(t).n[f];
+            const std::uint32_t code = c.across(t, f);
             if (code != mesh::none &&
                 std::find(tets.begin(), tets.end(), mesh::neighbour_tet(code)) != tets.end())
                 continue;

@@ -26,8 +26,8 @@ public:
     Answer visit(VertexId u, VertexId w, VertexId third, TetId tet_a, TetId tet_b) {
         mesh::Complex& c = bench_.complex;
         const auto without = static_cast<float>(bench_.quality(below_, above_, u, w));
-        const std::uint32_t code_a = c.tet(tet_a).n[mesh::index_of(c.tet(tet_a), third)];
-        const std::uint32_t code_b = c.tet(tet_b).n[mesh::index_of(c.tet(tet_b), third)];
+        const std::uint32_t code_a = c.across(tet_a, mesh::index_of(c.tet(tet_a), third));
+        const std::uint32_t code_b = c.across(tet_b, mesh::index_of(c.tet(tet_b), third));
         if (code_a != mesh::none && code_b != mesh::none &&
             bench_.edit.removed.size() < 2 * max_sandwiched) {
             const TetId next_a = mesh::neighbour_tet(code_a), next_b = mesh::neighbour_tet(code_b);
@@ -68,7 +68,7 @@ private:
 
 Outcome remove_faces(Workbench& bench, TetId t, unsigned face, float accept_above) {
     mesh::Complex& c = bench.complex;
-    const std::uint32_t code = c.tet(t).n[face];
+    const std::uint32_t code = c.across(t, face);
     if (code == mesh::none) return Refusal::box;
     const TetId other = mesh::neighbour_tet(code);
     if (c.label(t) != c.label(other)) return Refusal::not_applicable;
@@ -98,7 +98,7 @@ Outcome remove_faces(Workbench& bench, TetId t, unsigned face, float accept_abov
 
 Outcome split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point) {
     mesh::Complex& c = bench.complex;
-    const std::uint32_t code = c.tet(t).n[face];
+    const std::uint32_t code = c.across(t, face);
     if (code == mesh::none) return Refusal::box;
     const TetId other = mesh::neighbour_tet(code);
     bench.edit.clear();

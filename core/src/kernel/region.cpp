@@ -216,8 +216,9 @@ RegionFault measure(Workbench& bench, Region& region) {
         region.volume += volume;
         for (const VertexId v : tet.v) region.centroid += 0.25 * volume * c.position(v);
         for (unsigned f = 0; f < 4; ++f) {
-            if (tet.n[f] == mesh::none) return RegionFault::box;
-            if (contains(region.tets, mesh::neighbour_tet(tet.n[f]))) continue;
+            const std::uint32_t code = c.across(t, f);
+            if (code == mesh::none) return RegionFault::box;
+            if (contains(region.tets, mesh::neighbour_tet(code))) continue;
             const mesh::Label label = c.label_across(t, f);
             if (label != region.from && label != region.to) return RegionFault::labels;
             BoundaryFace face{{}, label == region.to, 0.0};

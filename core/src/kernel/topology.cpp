@@ -88,7 +88,7 @@ bool TopologyStage::interface_edge(TetId t, VertexId a, VertexId b, mesh::EdgeRi
 
 bool TopologyStage::neck_face(TetId t, unsigned face, mesh::EdgeRing& ring) const {
     const mesh::Complex& c = bench_.complex;
-    const std::uint32_t code = c.tet(t).n[face];
+    const std::uint32_t code = c.across(t, face);
     if (code == mesh::none || mesh::neighbour_tet(code) < t ||
         c.label(mesh::neighbour_tet(code)) != c.label(t))
         return false;
@@ -352,7 +352,7 @@ bool TopologyStage::flood_component(TetId seed, double volume_limit, Region& reg
         if (volume >= volume_limit || region.tets.size() > small_component || touches_box(c, t))
             return false;
         for (unsigned f = 0; f < 4; ++f) {
-            const TetId next = mesh::neighbour_tet(c.tet(t).n[f]);
+            const TetId next = mesh::neighbour_tet(c.across(t, f));
             if (c.label(next) != region.from) {
                 if (region.to != region.from && region.to != c.label(next)) return false;
                 region.to = c.label(next);

@@ -67,7 +67,6 @@ std::vector<Vec3> used_points(const TetMesh& mesh, LargeVector<Tet>& tets, Adopt
     tets.resize(mesh.tets.size());
     for (std::size_t i = 0; i < tets.size(); ++i) {
         for (unsigned k = 0; k < 4; ++k) tets[i].v[k] = index[mesh.tets[i][k]];
-        tets[i].n = {none, none, none, none};
     }
     return points;
 }
@@ -130,9 +129,11 @@ struct Fault {
     }
 };
 
-// Joins equal faces; positive tets on the two sides of a face have its vertices in opposite order.
-void join_faces(const std::vector<Vec3>& points, LargeVector<Tet>& tets, std::string_view name,
-                Workers* workers) {
+// Joins equal faces: `neighbours` receive what lies across each face. Positive tets on the two
+// sides of a face have its vertices in opposite order.
+void join_faces(const std::vector<Vec3>& points, const LargeVector<Tet>& tets,
+                LargeVector<TetNeighbours>& neighbours, std::string_view name, Workers* workers) {
+    neighbours.assign(tets.size(), {none, none, none, none});
     FaceTable table =
         deal_faces(points.size(), tets.size(), [&](std::size_t t) { return &tets[t].v; });
     struct Found {
@@ -148,8 +149,8 @@ void join_faces(const std::vector<Vec3>& points, LargeVector<Tet>& tets, std::st
                 if (uses[0].odd == uses[1].odd) {
                     found.same_side.note(key, uses[1]);
                 } else {
-                    tets[uses[0].code >> 2U].n[uses[0].code & 3U] = uses[1].code;
-                    tets[uses[1].code >> 2U].n[uses[1].code & 3U] = uses[0].code;
+                    neighbours[uses[0].code >> 2U][uses[0].code & 3U] = uses[1].code;
+                    neighbours[uses[1].code >> 2U][uses[1].code & 3U] = uses[0].code;
                 }
             }
         });
@@ -207,7 +208,7 @@ bool open_faces_are_on_box(const Complex& c) {
     };
     for (TetId t = 0; t < c.tet_slots(); ++t) {
         for (unsigned f = 0; f < 4; ++f) {
-            if (c.tet(t).n[f] != none) continue;
+            if (c.across(t, f) != none) continue;
             unsigned common = ~0U;
             for (const auto k : face_vertices[f]) common &= side_of(c.position(c.tet(t).v[k]));
             if (common == 0) return false;
@@ -241,7 +242,8 @@ std::vector<char> tets_of_large_components(const Complex& c, double volume) {
     UnionFind components(count);
     for (TetId t = 0; t < count; ++t) {
         if (!c.tet_alive(t)) continue;
-        for (const std::uint32_t code : c.tet(t).n) {
+        for (unsigned f = 0; f < 4; ++f) {
+            const std::uint32_t code = c.across(t, f);
             if (code == none || neighbour_tet(code) > t ||
                 c.label(neighbour_tet(code)) != c.label(t))
                 continue;
@@ -274,14 +276,14 @@ std::size_t remove_small_components(Complex& c, double volume) {
         Label around = c.label(start);
         bool one = true, box = false;
         for (std::size_t i = 0; i < component.size(); ++i) {
-            const Tet& tet = c.tet(component[i]);
             sum += c.volume(component[i]);
             for (unsigned f = 0; f < 4; ++f) {
-                if (tet.n[f] == none) {
+                const std::uint32_t code = c.across(component[i], f);
+                if (code == none) {
                     box = true;
                     continue;
                 }
-                const TetId next = neighbour_tet(tet.n[f]);
+                const TetId next = neighbour_tet(code);
                 if (c.label(next) != c.label(start)) {
                     if (around != c.label(start) && around != c.label(next)) one = false;
                     around = c.label(next);
@@ -318,11 +320,13 @@ Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, d
     out = {};
     check_arrays(mesh, name);
     LargeVector<Tet> tets;
+    LargeVector<TetNeighbours> neighbours;
     std::vector<Vec3> points = used_points(mesh, tets, out);
     orient(points, tets, name, out, workers);
-    join_faces(points, tets, name, workers);
+    join_faces(points, tets, neighbours, name, workers);
     check_volume(points, tets, name);
-    Complex complex = Complex::assemble(std::move(points), std::move(tets), mesh.labels, workers);
+    Complex complex = Complex::assemble(std::move(points), std::move(tets), std::move(neighbours),
+                                        mesh.labels, workers);
     check_stars(complex, name);
     out.unpinched_vertices = unpinch(complex, name, workers);
     const double edge = mean_interface_edge(complex);

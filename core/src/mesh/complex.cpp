@@ -21,7 +21,7 @@ double Complex::volume(TetId t) const {
 
 float Complex::least_quality() const {
     float least = no_quality;
-    for (const TetData& tet : data_) least = tet.quality < least ? tet.quality : least;
+    for (const Tet& tet : tets_) least = tet.quality < least ? tet.quality : least;
     return least;
 }
 
@@ -48,13 +48,13 @@ TetId Complex::allocate_tet() {
     }
     const auto t = static_cast<TetId>(tets_.size());
     tets_.emplace_back();
-    data_.emplace_back();
+    neighbours_.emplace_back();
     return t;
 }
 
 void Complex::touch(TetId t) {
-    if (data_[t].date <= taken_clock_) changes_.push_back(t);
-    data_[t].date = clock_;
+    if (tets_[t].date <= taken_clock_) changes_.push_back(t);
+    tets_[t].date = clock_;
     for (const VertexId v : tets_[t].v) vertices_[v].date = clock_;
 }
 
@@ -89,7 +89,7 @@ unsigned Complex::count_phases(VertexId v, std::span<const TetId> star) const {
             seen[count++] = label;
         }
     };
-    for (const TetId t : star) note(data_[t].label);
+    for (const TetId t : star) note(tets_[t].label);
     if (on_box(v)) note(0);
     return count;
 }
@@ -101,7 +101,7 @@ void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star
     vertices_[v].position = position;
     for (const TetId t : star) {
         const auto& x = tets_[t].v;
-        data_[t].quality =
+        tets_[t].quality =
             static_cast<float>(geometry::tet_quality(this->position(x[0]), this->position(x[1]),
                                                      this->position(x[2]), this->position(x[3])));
         touch(t);
@@ -111,7 +111,7 @@ void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star
 void Complex::place(VertexId v, const Vec3& position, std::span<const TetId> star,
                     std::span<const float> qualities) {
     vertices_[v].position = position;
-    for (std::size_t i = 0; i < star.size(); ++i) data_[star[i]].quality = qualities[i];
+    for (std::size_t i = 0; i < star.size(); ++i) tets_[star[i]].quality = qualities[i];
 }
 
 // The vertices of a star are v and its neighbours. If the neighbours are known, each is dated once
@@ -124,8 +124,8 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
         return;
     }
     for (const TetId t : star) {
-        if (data_[t].date <= taken_clock_) changes_.push_back(t);
-        data_[t].date = clock_;
+        if (tets_[t].date <= taken_clock_) changes_.push_back(t);
+        tets_[t].date = clock_;
     }
     vertices_[v].date = clock_;
     for (const VertexId w : neighbours) vertices_[w].date = clock_;
@@ -146,7 +146,7 @@ void Complex::relabel(std::span<const TetId> tets, Label label) {
     walk_.places.clear();
     relabelled_.clear();
     for (const TetId t : tets) {
-        data_[t].label = label;
+        tets_[t].label = label;
         touch(t);
         for (const VertexId v : tets_[t].v) {
             if (walk_.places.insert(v)) relabelled_.push_back(v);
@@ -166,7 +166,7 @@ bool Complex::find_relabelled(const Edit& edit) {
     const Label first = edit.added.empty() ? 0 : edit.added.front().label;
     const auto same = [first](Label label) { return label == first; };
     if (std::all_of(edit.removed.begin(), edit.removed.end(),
-                    [&](TetId t) { return same(data_[t].label); }) &&
+                    [&](TetId t) { return same(tets_[t].label); }) &&
         std::all_of(edit.added.begin(), edit.added.end(),
                     [&](const NewTet& t) { return same(t.label); })) {
         return false;
@@ -186,8 +186,8 @@ bool Complex::find_relabelled(const Edit& edit) {
     const auto small = [](Label label) { return label >= 0 && label < 64; };
     bool exact = true;
     for (const TetId t : edit.removed) {
-        exact = exact && small(data_[t].label);
-        for (const VertexId v : tets_[t].v) note(v, data_[t].label, 0);
+        exact = exact && small(tets_[t].label);
+        for (const VertexId v : tets_[t].v) note(v, tets_[t].label, 0);
     }
     for (const NewTet& tet : edit.added) {
         exact = exact && small(tet.label);
@@ -220,20 +220,21 @@ VertexId Complex::replace(Edit& edit) {
         for (VertexId& v : tet.v) {
             if (v == created_vertex) v = created;
         }
+        TetNeighbours& across = neighbours_[t];
         for (unsigned f = 0; f < 4; ++f) {
             const std::uint32_t code = edit.neighbours[i][f];
             if (code == none) {
-                tet.n[f] = none;
+                across[f] = none;
             } else if ((code & Edit::virtual_code) != 0) {
                 const std::uint32_t local = code & ~Edit::virtual_code;
-                tet.n[f] = 4 * last_added_[local >> 2U] + (local & 3U);
+                across[f] = 4 * last_added_[local >> 2U] + (local & 3U);
             } else {
-                tet.n[f] = code;
-                tets_[neighbour_tet(code)].n[neighbour_face(code)] = 4 * t + f;
+                across[f] = code;
+                neighbours_[neighbour_tet(code)][neighbour_face(code)] = 4 * t + f;
             }
         }
-        data_[t].label = edit.added[i].label;
-        data_[t].birth_date = clock_;
+        tets_[t].label = edit.added[i].label;
+        tets_[t].birth_date = clock_;
         for (const VertexId v : tet.v) {
             vertices_[v].seed = t;
             shape_dates_[v] = clock_;
@@ -244,7 +245,7 @@ VertexId Complex::replace(Edit& edit) {
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
         const TetId t = last_added_[i];
         const auto& x = tets_[t].v;
-        data_[t].quality =
+        tets_[t].quality =
             have_qualities ? edit.qualities[i]
                            : static_cast<float>(geometry::tet_quality(
                                  position(x[0]), position(x[1]), position(x[2]), position(x[3])));
@@ -253,8 +254,8 @@ VertexId Complex::replace(Edit& edit) {
     for (std::size_t i = edit.added.size(); i < edit.removed.size(); ++i) {
         const TetId t = edit.removed[i];
         tets_[t].v[0] = none;
-        data_[t].quality = no_quality;
-        data_[t].birth_date = clock_;
+        tets_[t].quality = no_quality;
+        tets_[t].birth_date = clock_;
         free_tets_.push_back(t);
     }
     if (edit.deleted != none) {
@@ -269,7 +270,8 @@ VertexId Complex::replace(Edit& edit) {
 }
 
 Complex Complex::assemble(std::vector<Vec3> points, LargeVector<Tet> tets,
-                          std::span<const Label> labels, Workers* workers) {
+                          LargeVector<TetNeighbours> neighbours, std::span<const Label> labels,
+                          Workers* workers) {
     constexpr std::size_t assembled_tets = 16384, assembled_stars = 2048;  // per block
     Complex c;
     c.vertices_.reserve(points.size());
@@ -280,8 +282,8 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<Tet> tets,
     c.shape_dates_.assign(c.vertices_.size(), 1);
     c.stars_.grow(c.vertices_.size());
     c.tets_ = std::move(tets);
+    c.neighbours_ = std::move(neighbours);
     const std::size_t n = c.tets_.size();
-    c.data_.resize(n);
     c.changes_.reserve(n);
     c.clock_ = 1;
     for_blocks(workers, n, assembled_tets, [&c, labels](std::size_t begin, std::size_t end) {
@@ -289,14 +291,14 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<Tet> tets,
             const auto& v = c.tets_[t].v;
             const double quality = geometry::tet_quality(c.position(v[0]), c.position(v[1]),
                                                          c.position(v[2]), c.position(v[3]));
-            c.data_[t] = {static_cast<float>(quality), 0, 1, labels[t]};
+            c.tets_[t] = {v, static_cast<float>(quality), 0, 1, labels[t]};
         }
     });
     for (TetId t = 0; t < n; ++t) {
         const auto& v = c.tets_[t].v;
         for (unsigned f = 0; f < 4; ++f) {
             c.vertices_[v[f]].seed = t;
-            if (c.tets_[t].n[f] != none) continue;
+            if (c.neighbours_[t][f] != none) continue;
             for (const auto i : face_vertices[f]) c.vertices_[v[i]].on_box = 1;
         }
         c.touch(t);
@@ -362,7 +364,7 @@ TetMesh Complex::to_mesh(std::vector<VertexId>* ids) const {
             }
         }
         if (odd) std::swap(v[2], v[3]);
-        rows.push_back({v, data_[t].label});
+        rows.push_back({v, tets_[t].label});
     }
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
         auto x = a.v, y = b.v;

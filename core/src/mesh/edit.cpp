@@ -55,7 +55,7 @@ bool Complex::link(Edit& edit) const {
     std::size_t open = 0;
     for (const TetId t : edit.removed) {
         for (unsigned f = 0; f < 4; ++f) {
-            const std::uint32_t code = tets_[t].n[f];
+            const std::uint32_t code = neighbours_[t][f];
             if (code != none && walk_.places.contains(neighbour_tet(code))) continue;
             FaceSlot& slot = find(face_key(tets_[t].v, f));
             if (slot.stamp == face_stamp_) return false;

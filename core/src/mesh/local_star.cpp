@@ -40,11 +40,12 @@ void LocalStar::build(VertexId v, std::span<const TetId> region, Label trial) {
         const Tet& tet = complex_.tet(tets_[i]);
         for (unsigned f = 0; f < 4; ++f) {
             if (tet.v[f] == v) continue;
-            if (tet.n[f] == none) {
+            const std::uint32_t code = complex_.across(tets_[i], f);
+            if (code == none) {
                 adjacent_[i][f] = outside_node;
                 outside = true;
             } else {
-                adjacent_[i][f] = places_.find(neighbour_tet(tet.n[f]));
+                adjacent_[i][f] = places_.find(neighbour_tet(code));
             }
         }
     }
@@ -89,12 +90,13 @@ void LocalStar::build(VertexId v, const Edit& edit) {
         const Tet& tet = complex_.tet(tets_[i]);
         for (unsigned f = 0; f < 4; ++f) {
             if (tet.v[f] == v) continue;
-            if (tet.n[f] == none) {
+            const std::uint32_t code = complex_.across(tets_[i], f);
+            if (code == none) {
                 adjacent_[i][f] = outside_node;
                 outside = true;
             } else {
                 // none if removed: set from the other side
-                adjacent_[i][f] = node_of_[places_.find(neighbour_tet(tet.n[f]))];
+                adjacent_[i][f] = node_of_[places_.find(neighbour_tet(code))];
             }
         }
     }

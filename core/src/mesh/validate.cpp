@@ -46,7 +46,7 @@ void check_tet(const Complex& c, TetId t, ComplexReport& report, Faults& faults)
         faults.add(tet_name(t) + " has an outdated quality");
     }
     for (unsigned f = 0; f < 4; ++f) {
-        const std::uint32_t code = tet.n[f];
+        const std::uint32_t code = c.across(t, f);
         if (code == none) {
             for (const auto i : face_vertices[f]) {
                 if (!c.on_box(tet.v[i]))
@@ -57,7 +57,7 @@ void check_tet(const Complex& c, TetId t, ComplexReport& report, Faults& faults)
         }
         const TetId other = neighbour_tet(code);
         const unsigned g = neighbour_face(code);
-        if (other >= c.tet_slots() || !c.tet_alive(other) || c.tet(other).n[g] != 4 * t + f) {
+        if (other >= c.tet_slots() || !c.tet_alive(other) || c.across(other, g) != 4 * t + f) {
             faults.add(tet_name(t) + " and its neighbour across face " + std::to_string(f) +
                        " disagree");
             continue;
@@ -142,7 +142,7 @@ InterfaceCounts count_interface(const Complex& c) {
     for (TetId t = 0; t < c.tet_slots(); ++t) {
         if (!c.tet_alive(t)) continue;
         for (unsigned f = 0; f < 4; ++f) {
-            const std::uint32_t code = c.tet(t).n[f];
+            const std::uint32_t code = c.across(t, f);
             if (!c.interface_face(t, f) || (code != none && neighbour_tet(code) < t)) continue;
             ++counts.faces;
             for (unsigned k = 0; k < 3; ++k) {

@@ -61,9 +61,9 @@ std::vector<RimFace> rim_of(const Complex& c, VertexId v, std::span<const TetId>
         const Tet& tet = c.tet(t);
         for (unsigned f = 0; f < 4; ++f) {
             if (tet.v[f] == v) continue;
-            if (tet.n[f] == none) return {};
-            if (std::find(group.begin(), group.end(), neighbour_tet(tet.n[f])) != group.end())
-                continue;
+            const std::uint32_t code = c.across(t, f);
+            if (code == none) return {};
+            if (std::find(group.begin(), group.end(), neighbour_tet(code)) != group.end()) continue;
             std::array<VertexId, 3> corners{};
             for (unsigned k = 0; k < 3; ++k) corners[k] = tet.v[face_vertices[f][k]];
             while (corners[0] != v)

@@ -35,22 +35,21 @@ VertexId fourth(const Tet& tet, VertexId a, VertexId b, VertexId c) {
 // the ring as long as keep(tet) says so.
 enum class RingEnd { closed, open, stopped };
 template <class Keep>
-RingEnd walk_ring(const LargeVector<Tet>& tets, TetId first, VertexId a, VertexId b, VertexId p,
-                  VertexId q, EdgeRing& out, const Keep& keep) {
+RingEnd walk_ring(const Complex& c, TetId first, VertexId a, VertexId b, VertexId p, VertexId q,
+                  EdgeRing& out, const Keep& keep) {
     TetId current = first;
     while (true) {
         if (!keep(current)) return RingEnd::stopped;
         out.tets.push_back(current);
         out.link.push_back(p);
-        const Tet& tet = tets[current];
-        const std::uint32_t code = tet.n[index_of(tet, p)];
+        const std::uint32_t code = c.across(current, index_of(c.tet(current), p));
         if (code == none) {
             out.link.push_back(q);
             return RingEnd::open;
         }
         current = neighbour_tet(code);
         if (current == first) return RingEnd::closed;
-        const VertexId r = fourth(tets[current], a, b, q);
+        const VertexId r = fourth(c.tet(current), a, b, q);
         p = q;
         q = r;
     }
@@ -155,6 +154,7 @@ void Complex::walk_codes(VertexId v, std::vector<std::uint32_t>& out, TetIndex& 
     places.clear();
     // Kept in a register: the compiler cannot know that writing to the table does not change it.
     const Tet* const tets = tets_.data();
+    const TetNeighbours* const neighbours = neighbours_.data();
     const TetId first = vertices_[v].seed;
     places.insert(first);
     // A code is written, and counts if its tet is new: a branch could not be predicted.
@@ -163,19 +163,20 @@ void Complex::walk_codes(VertexId v, std::vector<std::uint32_t>& out, TetIndex& 
     const auto visit = [&](std::uint32_t code) {
         if (code == none) return;
         __builtin_prefetch(tets + neighbour_tet(code));  // its turn comes soon
+        __builtin_prefetch(neighbours + neighbour_tet(code));
         out[count] = code;
         count += places.insert(neighbour_tet(code)) ? 1 : 0;
     };
     const unsigned own = index_of(tets[first], v);
     out[count++] = 4 * first + own;
     for (unsigned f = 0; f < 4; ++f) {
-        if (f != own) visit(tets[first].n[f]);
+        if (f != own) visit(neighbours[first][f]);
     }
     for (std::size_t i = 1; i < count; ++i) {
         if (out.size() < count + 2) out.resize(2 * count);
-        const Tet& tet = tets[neighbour_tet(out[i])];
-        for (const unsigned f : other_corners[index_of(tet, v)][neighbour_face(out[i])])
-            visit(tet.n[f]);
+        const TetId t = neighbour_tet(out[i]);
+        for (const unsigned f : other_corners[index_of(tets[t], v)][neighbour_face(out[i])])
+            visit(neighbours[t][f]);
     }
     out.resize(count);
 }
@@ -185,12 +186,12 @@ void Complex::ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const {
     out.tets.clear();
     out.link.clear();
     auto [p, q] = opposite_edge(tets_[t], a, b);
-    out.closed = walk_ring(tets_, t, a, b, p, q, out, all) == RingEnd::closed;
+    out.closed = walk_ring(*this, t, a, b, p, q, out, all) == RingEnd::closed;
     if (out.closed) return;
     // Back to the first tet of the open ring, and then along it.
     TetId first = t;
     while (true) {
-        const std::uint32_t code = tets_[first].n[index_of(tets_[first], q)];
+        const std::uint32_t code = across(first, index_of(tets_[first], q));
         if (code == none) break;
         first = neighbour_tet(code);
         const VertexId s = fourth(tets_[first], a, b, p);
@@ -199,7 +200,7 @@ void Complex::ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const {
     }
     out.tets.clear();
     out.link.clear();
-    walk_ring(tets_, first, a, b, p, q, out, all);
+    walk_ring(*this, first, a, b, p, q, out, all);
 }
 
 bool Complex::inner_ring(TetId t, VertexId a, VertexId b, std::size_t most, EdgeRing& out) const {
@@ -207,9 +208,9 @@ bool Complex::inner_ring(TetId t, VertexId a, VertexId b, std::size_t most, Edge
     out.link.clear();
     const auto [p, q] = opposite_edge(tets_[t], a, b);
     const auto fits = [&](TetId r) {
-        return out.tets.size() < most && data_[r].label == data_[t].label;
+        return out.tets.size() < most && tets_[r].label == tets_[t].label;
     };
-    out.closed = walk_ring(tets_, t, a, b, p, q, out, fits) == RingEnd::closed;
+    out.closed = walk_ring(*this, t, a, b, p, q, out, fits) == RingEnd::closed;
     return out.closed;
 }
 

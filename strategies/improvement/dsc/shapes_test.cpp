@@ -18,12 +18,13 @@ using repair::Operation;
 mesh::Complex two_tets(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 middle = (a + b + c) / 3.0, up = (b - a).cross(c - a).normalized();
     // The face that two tets share lies opposite corner 3 of both.
-    const mesh::Tet below{{0, 1, 2, 3}, {mesh::none, mesh::none, mesh::none, 1U << 2U | 3U}};
-    const mesh::Tet above{{0, 2, 1, 4}, {mesh::none, mesh::none, mesh::none, 0U << 2U | 3U}};
-    const LargeVector<mesh::Tet> tets = {below, above};
+    const LargeVector<mesh::Tet> tets = {{{0, 1, 2, 3}}, {{0, 2, 1, 4}}};
+    const LargeVector<mesh::TetNeighbours> neighbours = {
+        {mesh::none, mesh::none, mesh::none, 1U << 2U | 3U},
+        {mesh::none, mesh::none, mesh::none, 0U << 2U | 3U}};
     const std::array<mesh::Label, 2> labels = {1, 0};
     const mesh::Complex complex =
-        mesh::Complex::assemble({a, b, c, middle + up, middle - up}, tets, labels);
+        mesh::Complex::assemble({a, b, c, middle + up, middle - up}, tets, neighbours, labels);
     REQUIRE(complex.volume(0) > 0.0);
     return complex;
 }

@@ -77,7 +77,7 @@ TEST_CASE("edge removal undoes an edge split of a ring, 3-2 flips undo 2-3 flips
     for (TetId t = 0; t < 400 && done < 20; ++t) {
         // After the two operations the slot of t may be empty.
         for (unsigned f = 0; f < 4 && done < 20 && c.tet_alive(t); ++f) {
-            const std::uint32_t code = c.tet(t).n[f];
+            const std::uint32_t code = c.across(t, f);
             if (code == mesh::none) continue;
             const VertexId a = c.tet(t).v[f],
                            b = c.tet(mesh::neighbour_tet(code)).v[mesh::neighbour_face(code)];
@@ -102,7 +102,7 @@ TEST_CASE("face removal takes the named face and no other") {
     std::size_t done = 0, refused = 0;
     for (TetId t = 0; t < 400 && done < 20; ++t) {
         for (unsigned f = 0; f < 4; ++f) {
-            if (!c.tet_alive(t) || c.tet(t).n[f] == mesh::none) continue;
+            if (!c.tet_alive(t) || c.across(t, f) == mesh::none) continue;
             repair::Request request;
             request.operation = repair::Operation::face_removal;
             request.tet = t;
@@ -110,8 +110,8 @@ TEST_CASE("face removal takes the named face and no other") {
             request.accept_above = 0.0F;
             for (unsigned k = 0; k < 3; ++k)
                 request.vertices[k] = c.tet(t).v[mesh::face_vertices[f][k]];
-            const VertexId a = c.tet(t).v[f], b = c.tet(mesh::neighbour_tet(c.tet(t).n[f]))
-                                                      .v[mesh::neighbour_face(c.tet(t).n[f])];
+            const VertexId a = c.tet(t).v[f], b = c.tet(mesh::neighbour_tet(c.across(t, f)))
+                                                      .v[mesh::neighbour_face(c.across(t, f))];
             if (execute(bench, request).refused()) {
                 ++refused;
                 continue;
@@ -155,7 +155,7 @@ TEST_CASE("a compound with a named vertex or edge repairs that; its gain and lea
             Workbench bench(c);
             prepare(bench);
             const VertexId v = c.tet(t).v[f];
-            if (c.on_interface(v) || c.on_box(v) || c.tet(t).n[f] == mesh::none) continue;
+            if (c.on_interface(v) || c.on_box(v) || c.across(t, f) == mesh::none) continue;
             Vec3 centroid = Vec3::Zero();
             for (unsigned k = 0; k < 3; ++k)
                 centroid += c.position(c.tet(t).v[mesh::face_vertices[f][k]]) / 3.0;
@@ -232,7 +232,7 @@ TEST_CASE("the box never changes: its edges and faces are refused") {
     CHECK(smooth_optimise(bench, 0) == Refusal::box);
     CHECK(split_vertex(bench, 0, along) == Refusal::box);
     for (unsigned f = 0; f < 4; ++f) {
-        if (c.tet(corner).n[f] != mesh::none) continue;
+        if (c.across(corner, f) != mesh::none) continue;
         CHECK(remove_faces(bench, corner, f, 0.0F) == Refusal::box);
         CHECK(split_face(bench, corner, f, Vec3::Zero()) == Refusal::box);
     }

@@ -51,7 +51,7 @@ void random_region(const mesh::Complex& c, RandomStream& random, Region& region)
         for (std::size_t i = 0; i < queue.size(); ++i) {
             region.tets.push_back(queue[i]);
             for (unsigned f = 0; f < 4; ++f) {
-                const std::uint32_t code = c.tet(queue[i]).n[f];
+                const std::uint32_t code = c.across(queue[i], f);
                 if (code == mesh::none) continue;
                 const TetId next = mesh::neighbour_tet(code);
                 if (cell(next) == place &&
@@ -64,7 +64,7 @@ void random_region(const mesh::Complex& c, RandomStream& random, Region& region)
         region.tets.push_back(t);
         for (std::size_t i = 0; i < region.tets.size() && region.tets.size() < 200; ++i) {
             for (unsigned f = 0; f < 4; ++f) {
-                const std::uint32_t code = c.tet(region.tets[i]).n[f];
+                const std::uint32_t code = c.across(region.tets[i], f);
                 if (code == mesh::none) continue;
                 const TetId next = mesh::neighbour_tet(code);
                 if (c.label(next) == region.from &&
@@ -85,7 +85,7 @@ void random_region(const mesh::Complex& c, RandomStream& random, Region& region)
         const auto size = 1 + random.index(8);
         while (region.tets.size() < size) {
             const TetId s = region.tets[random.index(region.tets.size())];
-            const std::uint32_t code = c.tet(s).n[random.index(4)];
+            const std::uint32_t code = c.across(s, static_cast<unsigned>(random.index(4)));
             if (code == mesh::none) break;
             const TetId next = mesh::neighbour_tet(code);
             if (std::find(region.tets.begin(), region.tets.end(), next) == region.tets.end())
@@ -101,7 +101,7 @@ void random_region(const mesh::Complex& c, RandomStream& random, Region& region)
     region.to = region.from;
     for (int attempt = 0; attempt < 8 && region.to == region.from; ++attempt) {
         const TetId s = region.tets[random.index(region.tets.size())];
-        const std::uint32_t code = c.tet(s).n[random.index(4)];
+        const std::uint32_t code = c.across(s, static_cast<unsigned>(random.index(4)));
         if (code != mesh::none) region.to = c.label(mesh::neighbour_tet(code));
     }
     if (region.to == region.from) region.to = region.from == 0 ? 1 : 0;

@@ -175,8 +175,6 @@ TEST_CASE("local stars: the classic cases of regular and pinched vertices") {
     const auto pinch = [](const std::function<bool(const Vec3&)>& in) {
         const TetMesh m = test::grid(
             4, 1.0, [&](const Vec3& p) { return p.cwiseAbs().maxCoeff() < 0.5 && in(p) ? 1 : 0; });
-        LargeVector<Tet> tets(m.tets.size());
-        std::vector<std::array<std::uint32_t, 4>> dummy;
         // Neighbours by adopting a mesh with plain labels, labels put on afterwards.
         TetMesh plain = m;
         std::fill(plain.labels.begin(), plain.labels.end(), 0);

@@ -42,11 +42,19 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_vertices = {
 inline constexpr std::array<std::array<std::uint8_t, 2>, 6> edge_vertices = {
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-/// Four vertices and, for each face, 4 * neighbour + its face index there, or none. 32 bytes.
-struct Tet {
+/// What is stored of a tet, without its neighbours. 32 bytes, so that it lies in one line of the
+/// caches: what reads a part of it nearly always reads others.
+struct alignas(32) Tet {
     std::array<VertexId, 4> v;
-    std::array<std::uint32_t, 4> n;
+    float quality = 0.0F;
+    std::uint32_t date = 0;
+    std::uint32_t birth_date = 0;
+    Label label = 0;
 };
+static_assert(sizeof(Tet) == 32);
+
+/// For each face of a tet, 4 * neighbour + its face index there, or none.
+using TetNeighbours = std::array<std::uint32_t, 4>;
 
 inline TetId neighbour_tet(std::uint32_t code) { return code >> 2U; }
 inline unsigned neighbour_face(std::uint32_t code) { return code & 3U; }
@@ -126,16 +134,18 @@ public:
 
     const Vec3& position(VertexId v) const { return vertices_[v].position; }
     const Tet& tet(TetId t) const { return tets_[t]; }
-    Label label(TetId t) const { return data_[t].label; }
+    /// What lies across face i: 4 * neighbour + its face index there, or none.
+    std::uint32_t across(TetId t, unsigned face) const { return neighbours_[t][face]; }
+    Label label(TetId t) const { return tets_[t].label; }
     /// Volume-length quality in (0, 1], cached.
-    float quality(TetId t) const { return data_[t].quality; }
-    /// The least quality of all tets, or 2 if the complex has no tet. It reads 16 bytes per tet.
+    float quality(TetId t) const { return tets_[t].quality; }
+    /// The least quality of all tets, or 2 if the complex has no tet. It reads 32 bytes per tet.
     float least_quality() const;
     /// Value of the change clock when the tet was last made, moved or relabelled.
-    std::uint32_t date(TetId t) const { return data_[t].date; }
+    std::uint32_t date(TetId t) const { return tets_[t].date; }
     /// Value of the change clock when the tet's slot was last filled; it differs if another tet
     /// took the slot.
-    std::uint32_t birth_date(TetId t) const { return data_[t].birth_date; }
+    std::uint32_t birth_date(TetId t) const { return tets_[t].birth_date; }
     /// Value of the change clock when a tet of the vertex' star last changed.
     std::uint32_t vertex_date(VertexId v) const { return vertices_[v].date; }
     /// Value of the change clock when a tet of the vertex' star was last made, removed or
@@ -166,11 +176,11 @@ public:
     std::span<const VertexId> interface_vertices() const { return interface_; }
     /// Label on the other side of face i: that of the neighbour, or 0 outside the box.
     Label label_across(TetId t, unsigned face) const {
-        const std::uint32_t code = tets_[t].n[face];
-        return code == none ? 0 : data_[neighbour_tet(code)].label;
+        const std::uint32_t code = neighbours_[t][face];
+        return code == none ? 0 : tets_[neighbour_tet(code)].label;
     }
     bool interface_face(TetId t, unsigned face) const {
-        return data_[t].label != label_across(t, face);
+        return tets_[t].label != label_across(t, face);
     }
     double volume(TetId t) const;
     /// Whether a loop over many tets in no order of memory waits for the memory, so that it pays to
@@ -178,10 +188,7 @@ public:
     bool exceeds_caches() const { return tets_.size() >= 400'000; }
     /// Asks the memory for a tet that will be read soon, or for the vertices of one that is there
     /// already.
-    void prefetch(TetId t) const {
-        __builtin_prefetch(&tets_[t]);
-        __builtin_prefetch(&data_[t]);
-    }
+    void prefetch(TetId t) const { __builtin_prefetch(&tets_[t]); }
     void prefetch_vertices(TetId t) const {
         for (const VertexId v : tets_[t].v) {
             if (v != none) __builtin_prefetch(&vertices_[v]);
@@ -198,7 +205,7 @@ public:
         for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w]);
     }
     void prefetch_star_dates(VertexId v) const {
-        for (const TetId t : stars_.tets(v)) __builtin_prefetch(&data_[t].date);
+        for (const TetId t : stars_.tets(v)) prefetch(t);
         for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w].date);
     }
 
@@ -268,9 +275,10 @@ public:
 
     // ---- making and copying ---------------------------------------------------------------------
     /// Builds a complex from arrays that are already positive, conforming and box-filling (for
-    /// files see adopt()). `neighbours` as in Tet::n.
+    /// files see adopt()). Of the tets, only the vertices count.
     static Complex assemble(std::vector<Vec3> points, LargeVector<Tet> tets,
-                            std::span<const Label> labels, Workers* workers = nullptr);
+                            LargeVector<TetNeighbours> neighbours, std::span<const Label> labels,
+                            Workers* workers = nullptr);
     /// Compact arrays: vertices in birth order, tets in the order of their sorted births. The same
     /// complex gives the same bytes, whatever its slots. `ids`, if given, receives the complex'
     /// vertex of each point.
@@ -294,15 +302,6 @@ private:
     static_assert(sizeof(Vertex) == 40);
     static constexpr std::uint32_t no_slot = (1U << 29U) - 1;
 
-    // Together, because what reads one of them nearly always reads or writes another.
-    struct alignas(16) TetData {
-        float quality = 0.0F;
-        std::uint32_t date = 0;
-        std::uint32_t birth_date = 0;
-        Label label = 0;
-    };
-    static_assert(sizeof(TetData) == 16);
-
     VertexId allocate_vertex(const Vec3& position);
     TetId allocate_tet();
     void note_change(VertexId v, std::span<const TetId> star);
@@ -320,7 +319,7 @@ private:
 
     LargeVector<Vertex> vertices_;
     LargeVector<Tet> tets_;
-    LargeVector<TetData> data_;               // per tet
+    LargeVector<TetNeighbours> neighbours_;   // per tet
     LargeVector<std::uint32_t> shape_dates_;  // per vertex
     std::vector<VertexId> free_vertices_;
     std::vector<TetId> free_tets_;

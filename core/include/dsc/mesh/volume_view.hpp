@@ -89,7 +89,7 @@ public:
     /// The tet across face i, 0 to 3, which is opposite vertex i; mesh::none on the box. [1; id]
     /// [parallel]
     TetId neighbour(TetId tet, unsigned face) const {
-        const std::uint32_t code = complex_->tet(tet).n[face];
+        const std::uint32_t code = complex_->across(tet, face);
         return code == none ? none : neighbour_tet(code);
     }
     /// Label of the tet across face i; 0 on the box. [1; label] [parallel]
