@@ -53,6 +53,8 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     split(1, 0, samples_);
     for (Block& block : blocks_) {
         block.turns.clear();
+        block.changed.clear();
+        block.listed = 0;
         block.next = 0;
         block.prepared = false;
     }
@@ -72,7 +74,8 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
         blocks_[block_of_[turn]].turns.push_back(turn);
     }
     for (Block& block : blocks_) block.turn = block.turns.empty() ? no_code : block.turns.front();
-    marks_.assign(vertices.size(), 0);
+    attempted_.assign(vertices.size(), 0);
+    changes_.assign(vertices.size(), 0);
     return true;
 }
 

@@ -6,8 +6,9 @@
 // order of the list, until it comes to a vertex with a neighbour in another block that is earlier
 // in the list and has not been processed. Then the thread continues with the block that is farthest
 // behind. So each vertex sees the star that it would see in serial order, and no two threads use
-// the same tet at the same time. What depends on the number of earlier moves, which is their dates
-// and the action's books, follows in the order of the list.
+// the same tet at the same time. The date of a move is that of its turn in the list, so it does not
+// depend on the other moves. The change list and the action's books follow in the order of the
+// list.
 
 #include <array>
 #include <atomic>
@@ -43,17 +44,20 @@ public:
     /// - action.attempt(i, scratch): scratch.star is filled, with the neighbours if
     ///   Action::needs_neighbours; true if the vertex moves to scratch.place, with
     ///   scratch.qualities [parallel]
-    /// - action.settle(i, attempted, date): in the order of the list; date is the change clock at
-    ///   its turn [step]
+    /// - action.settle(i, attempted, date): in the order of the list; date is the time of its turn
+    ///   [step]
+    /// The change clock advances by one per vertex, whether it moves or not.
     /// ready() and attempt() may read the star and the date of their vertex, and everything that
     /// neither place() nor settle() of other vertices writes.
     template <class Action>
     void run(std::span<const mesh::VertexId> vertices, Workers* workers, Action& action) {
+        start_ = complex_.clock();
         if (workers == nullptr || workers->threads() < 2 || !divide(vertices, *workers)) {
             for (std::uint32_t i = 0; i < vertices.size(); ++i) {
                 prefetch(i, vertices.size(), [&](std::size_t at) { return vertices[at]; });
                 run_one(vertices[i], i, action);
             }
+            complex_.advance_clock(date_of(vertices.size()) - 1);
             return;
         }
         struct Forget {
@@ -65,14 +69,14 @@ public:
         } const forget{*this, vertices};
         const auto body = [&](std::size_t, std::size_t) { work(vertices, action); };
         workers->for_blocks(workers->threads(), 1, body);
-        settle(vertices, action);
+        complex_.advance_clock(date_of(vertices.size()) - 1);
+        settle(action);
     }
 
 private:
     static constexpr unsigned most_levels = 4;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_code = 0xffffffffU;
-    static constexpr std::uint8_t attempted = 1, moved = 2;
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
                                                                    // asked for data
 
@@ -83,6 +87,8 @@ private:
         std::size_t next = 0;
         bool prepared = false;             // scratch has the star and the neighbours of the next
         std::vector<std::uint32_t> turns;  // of the items, ascending
+        std::vector<mesh::TetId> changed;  // by the moves, in their order
+        std::size_t listed = 0;            // of them on the change list
         StarScratch scratch;
 
         bool take() { return !taken.exchange(true, std::memory_order_acquire); }
@@ -95,6 +101,9 @@ private:
         bool finished = true;             // all items have been processed
     };
 
+    std::uint32_t date_of(std::size_t turn) const {
+        return start_ + static_cast<std::uint32_t>(turn) + 1;
+    }
     bool divide(std::span<const mesh::VertexId> vertices, Workers& workers);
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
     std::uint8_t block_at(const Vec3& place) const;
@@ -125,6 +134,7 @@ private:
     void run_one(mesh::VertexId v, std::uint32_t i, Action& action) {
         StarScratch& scratch = blocks_.front().scratch;
         const bool ready = action.ready(i);
+        complex_.advance_clock(date_of(i) - 1);
         if (ready) {
             if constexpr (Action::needs_neighbours) {
                 scratch.star = complex_.cached_star_and_neighbours(v, scratch.walk);
@@ -134,7 +144,7 @@ private:
             if (action.attempt(i, scratch))
                 complex_.move(v, scratch.place, scratch.star.tets, scratch.qualities);
         }
-        action.settle(i, ready, complex_.clock());
+        action.settle(i, ready, date_of(i));
     }
 
     // Until all items have been processed. The earliest of the items that are left can always be
@@ -180,7 +190,7 @@ private:
             }
             if (!is_free(block, turn)) break;
             block.prepared = false;
-            marks_[turn] = run_next(block, v, turn, action);
+            run_next(block, v, turn, action);
             ++block.next;
             block.turn.store(block.next < block.turns.size() ? block.turns[block.next] : no_code,
                              std::memory_order_release);
@@ -191,26 +201,25 @@ private:
 
     // What follows in the order of the list.
     template <class Action>
-    void settle(std::span<const mesh::VertexId> vertices, Action& action) {
-        for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
-            if (turn + farther < vertices.size())
-                complex_.prefetch_star_entry(vertices[turn + farther]);
-            if (turn + far < vertices.size()) complex_.prefetch_star(vertices[turn + far]);
-            if (turn + near < vertices.size() && (marks_[turn + near] & moved) != 0)
-                complex_.prefetch_star_dates(vertices[turn + near]);
-            if ((marks_[turn] & moved) != 0) complex_.note_move(vertices[turn]);
-            action.settle(turn, (marks_[turn] & attempted) != 0, complex_.clock());
+    void settle(Action& action) {
+        for (std::uint32_t turn = 0; turn < changes_.size(); ++turn) {
+            Block& block = blocks_[block_of_[turn]];
+            complex_.add_changes(std::span(block.changed).subspan(block.listed, changes_[turn]));
+            block.listed += changes_[turn];
+            action.settle(turn, attempted_[turn] != 0, date_of(turn));
         }
     }
 
     template <class Action>
-    std::uint8_t run_next(Block& block, mesh::VertexId v, std::uint32_t i, Action& action) {
+    void run_next(Block& block, mesh::VertexId v, std::uint32_t i, Action& action) {
         StarScratch& scratch = block.scratch;
-        if (!action.ready(i)) return 0;
-        if (!action.attempt(i, scratch)) return attempted;
+        if (!action.ready(i)) return;
+        attempted_[i] = 1;
+        if (!action.attempt(i, scratch)) return;
         complex_.place(v, scratch.place, scratch.star.tets, scratch.qualities);
-        complex_.date_ahead(scratch.star.neighbours);
-        return attempted | moved;
+        const std::size_t before = block.changed.size();
+        complex_.date_move(v, scratch.star, date_of(i), block.changed);
+        changes_[i] = static_cast<std::uint32_t>(block.changed.size() - before);
     }
 
     mesh::Complex& complex_;
@@ -224,8 +233,10 @@ private:
     std::vector<Vec3> samples_;
     std::vector<std::uint32_t> codes_;  // per vertex: its turn and its block; no_code if it is not
                                         // in the list
-    std::vector<std::uint8_t> block_of_;  // per item
-    std::vector<std::uint8_t> marks_;     // per item
+    std::vector<std::uint8_t> block_of_;   // per item
+    std::vector<std::uint8_t> attempted_;  // per item
+    std::vector<std::uint32_t> changes_;   // per item: how many tets it put on its block's list
+    std::uint32_t start_ = 0;              // the change clock at the start
 };
 
 }  // namespace dsc::kernel

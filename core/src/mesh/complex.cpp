@@ -131,15 +131,23 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
     for (const VertexId w : neighbours) vertices_[w].date = clock_;
 }
 
-// Several threads may date the same vertex: they write the same value.
-void Complex::date_ahead(std::span<const VertexId> neighbours) {
-    for (const VertexId w : neighbours) {
-        const std::atomic_ref<std::uint32_t> date(vertices_[w].date);
-        date.store(clock_ + 1, std::memory_order_relaxed);
+void Complex::date_move(VertexId v, const Star& star, std::uint32_t date,
+                        std::vector<TetId>& changed) {
+    for (const TetId t : star.tets) {
+        if (tets_[t].date <= taken_clock_) changed.push_back(t);
+        tets_[t].date = date;
     }
+    // Two threads may date the same vertex, if it lies between the vertices that they move.
+    const auto raise = [date](std::uint32_t& value) {
+        const std::atomic_ref<std::uint32_t> latest(value);
+        std::uint32_t known = latest.load(std::memory_order_relaxed);
+        while (known < date &&
+               !latest.compare_exchange_weak(known, date, std::memory_order_relaxed)) {
+        }
+    };
+    raise(vertices_[v].date);
+    for (const VertexId w : star.neighbours) raise(vertices_[w].date);
 }
-
-void Complex::note_move(VertexId v) { note_change(v, own_star(v)); }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {
     ++clock_;

@@ -103,13 +103,11 @@ Shaken shake(Workers* workers, const Order& order) {
     StarLoop loop(out.complex);
     loop.run(vertices, workers, action);
     CHECK(action.collisions == 0);
-    std::uint32_t moved = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         CHECK(action.attempts[i] == (i % 3 != 0 ? 1 : 0));
         CHECK(action.settled[i] == 1);
-        moved += i % 3 != 0 && i % 5 != 0 ? 1 : 0;
     }
-    CHECK(out.complex.clock() == clock + moved);
+    CHECK(out.complex.clock() == clock + vertices.size());
     out.dates = action.dates;
     out.complex.take_changes(out.changes);
     return out;

@@ -151,7 +151,7 @@ public:
     /// Value of the change clock when a tet of the vertex' star was last made, removed or
     /// relabelled; moves leave it. It is not saved: after load() it is 0.
     std::uint32_t shape_date(VertexId v) const { return shape_dates_[v]; }
-    /// The change clock: the number of committed changes.
+    /// The change clock. It advances with each committed change.
     std::uint32_t clock() const { return clock_; }
     /// Number of the vertex in the order of creation; it survives renumbering and resuming.
     std::uint32_t birth(VertexId v) const { return vertices_[v].birth; }
@@ -196,17 +196,12 @@ public:
     }
 
     /// The same for a star: first where it is stored, then its ids, then its tets and neighbours as
-    /// far as they are stored, or only their dates. Each call needs what the one before has
-    /// fetched.
+    /// far as they are stored. Each call needs what the one before has fetched.
     void prefetch_star_entry(VertexId v) const { stars_.prefetch(v); }
     void prefetch_star(VertexId v) const { __builtin_prefetch(stars_.tets(v).data()); }
     void prefetch_star_tets(VertexId v) const {
         for (const TetId t : stars_.tets(v)) prefetch(t);
         for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w]);
-    }
-    void prefetch_star_dates(VertexId v) const {
-        for (const TetId t : stars_.tets(v)) prefetch(t);
-        for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w].date);
     }
 
     // ---- walks ----------------------------------------------------------------------------------
@@ -253,13 +248,18 @@ public:
         place(v, position, star, qualities);
         note_change(v, star);
     }
-    /// The parts of move(), for several vertices. place() may run in parallel if no other thread
-    /// uses the star meanwhile, and date_ahead() gives the neighbours a date that is later than all
-    /// before [parallel]. Then note_move() does the rest, in the order of the moves [step].
+    /// The parts of move(), for several vertices. place() and date_move() may run in parallel if no
+    /// other thread uses the star meanwhile. The dates are above clock(), and of two moves with a
+    /// common tet the later one comes later; `changed` receives the tets that are not on the change
+    /// list yet [parallel]. Then add_changes() adds these to the list, in the order of the moves,
+    /// and advance_clock() goes to a time that is not before the last move [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
-    void date_ahead(std::span<const VertexId> neighbours);
-    void note_move(VertexId v);
+    void date_move(VertexId v, const Star& star, std::uint32_t date, std::vector<TetId>& changed);
+    void add_changes(std::span<const TetId> tets) {
+        changes_.insert(changes_.end(), tets.begin(), tets.end());
+    }
+    void advance_clock(std::uint32_t time) { clock_ = time; }
     /// Gives tets another label. [step]
     void relabel(std::span<const TetId> tets, Label label);
 
