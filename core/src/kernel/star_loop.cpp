@@ -43,7 +43,7 @@ std::uint8_t StarLoop::block_at(const Vec3& place) const {
 
 // False if the items cannot be divided.
 bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers) {
-    if (vertices.size() < least_split || vertices.size() >> (32 - most_levels) != 0) return false;
+    if (vertices.size() < least_split || vertices.size() >= no_turn) return false;
     levels_ = 1;
     while (levels_ < most_levels && vertices.size() >> (levels_ + 1) >= least_block) ++levels_;
     const std::size_t stride = (vertices.size() + most_samples - 1) / most_samples;
@@ -52,10 +52,9 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
         samples_.push_back(complex_.position(vertices[turn]));
     split(1, 0, samples_);
     for (Block& block : blocks_) {
-        block.turns.clear();
+        block.items.clear();
         block.changed.clear();
-        block.listed = 0;
-        block.next = 0;
+        block.next = block.settled = block.listed = 0;
         block.prepared = false;
     }
     block_of_.resize(vertices.size());
@@ -63,28 +62,31 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
         for (std::size_t turn = begin; turn < end; ++turn)
             block_of_[turn] = block_at(complex_.position(vertices[turn]));
     });
-    codes_.resize(std::max(codes_.size(), complex_.vertex_slots()), no_code);
+    if (block_of_vertex_.size() < complex_.vertex_slots()) {
+        block_of_vertex_.resize(complex_.vertex_slots(), no_block);
+        turn_of_vertex_.resize(complex_.vertex_slots());
+    }
     for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
         const mesh::VertexId v = vertices[turn];
-        if (codes_[v] != no_code) {  // It occurs twice, so it has two turns.
-            for (const mesh::VertexId w : vertices) codes_[w] = no_code;
+        if (block_of_vertex_[v] != no_block) {  // It occurs twice, so it has two turns.
+            for (const mesh::VertexId w : vertices) block_of_vertex_[w] = no_block;
             return false;
         }
-        codes_[v] = turn << most_levels | block_of_[turn];
-        blocks_[block_of_[turn]].turns.push_back(turn);
+        block_of_vertex_[v] = block_of_[turn];
+        turn_of_vertex_[v] = turn;
+        blocks_[block_of_[turn]].items.push_back({turn});
     }
-    for (Block& block : blocks_) block.turn = block.turns.empty() ? no_code : block.turns.front();
-    attempted_.assign(vertices.size(), 0);
-    changes_.assign(vertices.size(), 0);
+    for (Block& block : blocks_)
+        block.turn = block.items.empty() ? no_turn : block.items.front().turn;
     return true;
 }
 
 StarLoop::Offer StarLoop::farthest_behind(std::uint32_t refused) const {
     Offer offer;
-    std::uint32_t least = no_code;
+    std::uint32_t least = no_turn;
     for (std::size_t b = 0; b < std::size_t{1} << levels_; ++b) {
         const std::uint32_t turn = blocks_[b].turn.load(std::memory_order_acquire);
-        if (turn == no_code) continue;
+        if (turn == no_turn) continue;
         offer.finished = false;
         if (turn >= least || (refused >> b & 1U) != 0 ||
             blocks_[b].taken.load(std::memory_order_relaxed))

@@ -64,7 +64,7 @@ public:
             StarLoop& loop;
             std::span<const mesh::VertexId> vertices;
             ~Forget() {
-                for (const mesh::VertexId v : vertices) loop.codes_[v] = no_code;
+                for (const mesh::VertexId v : vertices) loop.block_of_vertex_[v] = no_block;
             }
         } const forget{*this, vertices};
         const auto body = [&](std::size_t, std::size_t) { work(vertices, action); };
@@ -76,19 +76,28 @@ public:
 private:
     static constexpr unsigned most_levels = 4;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
-    static constexpr std::uint32_t no_code = 0xffffffffU;
+    static constexpr std::uint32_t no_turn = 0xffffffffU;
+    static constexpr std::uint8_t no_block = 0xff;
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
                                                                    // asked for data
 
-    // On cache lines of its own.
+    // A vertex at its turn.
+    struct Item {
+        std::uint32_t turn;
+        std::uint32_t changes = 0;  // how many tets its move put on the list of the block
+        bool attempted = false;
+    };
+
+    // On cache lines of its own. What a thread finds out about the items lies here, too, so that
+    // two threads do not write to one line.
     struct alignas(64) Block {
-        std::atomic<std::uint32_t> turn{0};  // of the next item; no_code after the last one
+        std::atomic<std::uint32_t> turn{0};  // of the next item; no_turn after the last one
         std::atomic<bool> taken{false};
         std::size_t next = 0;
-        bool prepared = false;             // scratch has the star and the neighbours of the next
-        std::vector<std::uint32_t> turns;  // of the items, ascending
-        std::vector<mesh::TetId> changed;  // by the moves, in their order
-        std::size_t listed = 0;            // of them on the change list
+        bool prepared = false;                // scratch has the star and the neighbours of the next
+        std::vector<Item> items;              // in the order of their turns
+        std::vector<mesh::TetId> changed;     // by the moves, in their order
+        std::size_t settled = 0, listed = 0;  // how many of both
         StarScratch scratch;
 
         bool take() { return !taken.exchange(true, std::memory_order_acquire); }
@@ -111,11 +120,12 @@ private:
 
     // Whether the neighbours that come earlier have been processed.
     bool is_free(const Block& block, std::uint32_t turn) const {
-        const auto own = static_cast<std::uint32_t>(&block - blocks_.data());
+        const auto own = static_cast<std::uint8_t>(&block - blocks_.data());
         for (const mesh::VertexId w : block.scratch.star.neighbours) {
-            const std::uint32_t code = codes_[w], other = code % most_blocks;
-            if (code >> most_levels < turn && other != own &&
-                blocks_[other].turn.load(std::memory_order_acquire) <= code >> most_levels)
+            const std::uint8_t other = block_of_vertex_[w];
+            if (other == own || other == no_block) continue;
+            if (turn_of_vertex_[w] < turn &&
+                blocks_[other].turn.load(std::memory_order_acquire) <= turn_of_vertex_[w])
                 return false;
         }
         return true;
@@ -173,27 +183,28 @@ private:
             Block& block;
             bool normal = false;
             ~Guard() {
-                if (!normal) block.turn.store(no_code, std::memory_order_release);
+                if (!normal) block.turn.store(no_turn, std::memory_order_release);
                 block.give_back();
             }
         } guard{block};
         const std::size_t first = block.next;
-        while (block.turn.load(std::memory_order_relaxed) != no_code) {
-            const std::uint32_t turn = block.turns[block.next];
-            const mesh::VertexId v = vertices[turn];
+        while (block.turn.load(std::memory_order_relaxed) != no_turn) {
+            Item& item = block.items[block.next];
+            const mesh::VertexId v = vertices[item.turn];
             StarScratch& scratch = block.scratch;
             if (!block.prepared) {
-                prefetch(block.next, block.turns.size(),
-                         [&](std::size_t at) { return vertices[block.turns[at]]; });
+                prefetch(block.next, block.items.size(),
+                         [&](std::size_t at) { return vertices[block.items[at].turn]; });
                 scratch.star = complex_.cached_star_and_neighbours(v, scratch.walk);
                 block.prepared = true;
             }
-            if (!is_free(block, turn)) break;
+            if (!is_free(block, item.turn)) break;
             block.prepared = false;
-            run_next(block, v, turn, action);
+            run_next(block, v, item, action);
             ++block.next;
-            block.turn.store(block.next < block.turns.size() ? block.turns[block.next] : no_code,
-                             std::memory_order_release);
+            block.turn.store(
+                block.next < block.items.size() ? block.items[block.next].turn : no_turn,
+                std::memory_order_release);
         }
         guard.normal = true;
         return block.next > first;
@@ -202,24 +213,25 @@ private:
     // What follows in the order of the list.
     template <class Action>
     void settle(Action& action) {
-        for (std::uint32_t turn = 0; turn < changes_.size(); ++turn) {
+        for (std::uint32_t turn = 0; turn < block_of_.size(); ++turn) {
             Block& block = blocks_[block_of_[turn]];
-            complex_.add_changes(std::span(block.changed).subspan(block.listed, changes_[turn]));
-            block.listed += changes_[turn];
-            action.settle(turn, attempted_[turn] != 0, date_of(turn));
+            const Item& item = block.items[block.settled++];
+            complex_.add_changes(std::span(block.changed).subspan(block.listed, item.changes));
+            block.listed += item.changes;
+            action.settle(turn, item.attempted, date_of(turn));
         }
     }
 
     template <class Action>
-    void run_next(Block& block, mesh::VertexId v, std::uint32_t i, Action& action) {
+    void run_next(Block& block, mesh::VertexId v, Item& item, Action& action) {
         StarScratch& scratch = block.scratch;
-        if (!action.ready(i)) return;
-        attempted_[i] = 1;
-        if (!action.attempt(i, scratch)) return;
+        if (!action.ready(item.turn)) return;
+        item.attempted = true;
+        if (!action.attempt(item.turn, scratch)) return;
         complex_.place(v, scratch.place, scratch.star.tets, scratch.qualities);
         const std::size_t before = block.changed.size();
-        complex_.date_move(v, scratch.star, date_of(i), block.changed);
-        changes_[i] = static_cast<std::uint32_t>(block.changed.size() - before);
+        complex_.date_move(v, scratch.star, date_of(item.turn), block.changed);
+        item.changes = static_cast<std::uint32_t>(block.changed.size() - before);
     }
 
     mesh::Complex& complex_;
@@ -231,12 +243,12 @@ private:
     };
     std::array<Plane, most_blocks> planes_;  // of the tree; node i has the children 2 i and 2 i + 1
     std::vector<Vec3> samples_;
-    std::vector<std::uint32_t> codes_;  // per vertex: its turn and its block; no_code if it is not
-                                        // in the list
-    std::vector<std::uint8_t> block_of_;   // per item
-    std::vector<std::uint8_t> attempted_;  // per item
-    std::vector<std::uint32_t> changes_;   // per item: how many tets it put on its block's list
-    std::uint32_t start_ = 0;              // the change clock at the start
+    // Per vertex: its block, no_block if it is not in the list; and its turn, if it is. The blocks
+    // alone fit into the caches, and most neighbours are in the same block.
+    std::vector<std::uint8_t> block_of_vertex_;
+    std::vector<std::uint32_t> turn_of_vertex_;
+    std::vector<std::uint8_t> block_of_;  // per turn
+    std::uint32_t start_ = 0;             // the change clock at the start
 };
 
 }  // namespace dsc::kernel
