@@ -17,11 +17,6 @@ constexpr std::size_t judged = 2048;  // tets that a thread judges at a time
 
 }  // namespace
 
-bool RepairQueues::lost() {
-    if (drop_ == 0) return false;
-    return --drop_ == 0;
-}
-
 bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
     const bool changed = complex_.vertex_date(v) > blocked_at;
     return changed && !lost();

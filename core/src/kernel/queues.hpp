@@ -57,7 +57,7 @@ private:
     void find_alive(Workers& workers);
     void judge_all(std::uint32_t previous_clock, Workers& workers);
 
-    bool lost();
+    bool lost() { return drop_ != 0 && --drop_ == 0; }
     bool out_of_date(TetId t, std::uint32_t date) const {
         const auto& v = complex_.tet(t).v;
         return std::any_of(v.begin(), v.end(),

@@ -64,7 +64,7 @@ public:
             StarLoop& loop;
             std::span<const mesh::VertexId> vertices;
             ~Forget() {
-                for (const mesh::VertexId v : vertices) loop.block_of_vertex_[v] = no_block;
+                for (const mesh::VertexId v : vertices) loop.turn_of_vertex_[v] = no_turn;
             }
         } const forget{*this, vertices};
         const auto body = [&](std::size_t, std::size_t) { work(vertices, action); };
@@ -77,7 +77,7 @@ private:
     static constexpr unsigned most_levels = 4;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_turn = 0xffffffffU;
-    static constexpr std::uint8_t no_block = 0xff;
+    static constexpr std::uint8_t no_leaf = 0xff;
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
                                                                    // asked for data
 
@@ -114,20 +114,33 @@ private:
         return start_ + static_cast<std::uint32_t>(turn) + 1;
     }
     bool divide(std::span<const mesh::VertexId> vertices, Workers& workers);
+    void make_planes(std::span<const mesh::VertexId> vertices);
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
-    std::uint8_t block_at(const Vec3& place) const;
+    void find_blocks(std::span<const mesh::VertexId> vertices, Workers& workers);
+    bool is_balanced() const;
+    std::uint8_t leaf_at(const Vec3& place) const;
     Offer farthest_behind(std::uint32_t refused) const;
 
+    // Whether all neighbours are known to be in the same leaf as v. Then the order of the block is
+    // enough, and the star of a vertex that is not ready need not be looked at.
+    bool is_inner(mesh::VertexId v) const {
+        return inner_since_[v] != 0 && complex_.shape_date(v) <= inner_since_[v];
+    }
     // Whether the neighbours that come earlier have been processed.
-    bool is_free(const Block& block, std::uint32_t turn) const {
-        const auto own = static_cast<std::uint8_t>(&block - blocks_.data());
+    bool is_free(const Block& block, mesh::VertexId v, std::uint32_t turn) {
+        const std::uint8_t own = leaf_of_vertex_[v];
+        bool inner = true;
         for (const mesh::VertexId w : block.scratch.star.neighbours) {
-            const std::uint8_t other = block_of_vertex_[w];
-            if (other == own || other == no_block) continue;
+            const std::uint8_t leaf = leaf_of_vertex_[w];
+            if (leaf == own) continue;
+            inner = false;
+            if (leaf == no_leaf || leaf >> coarser_ == own >> coarser_) continue;
+            const Block& other = blocks_[leaf >> coarser_];
             if (turn_of_vertex_[w] < turn &&
-                blocks_[other].turn.load(std::memory_order_acquire) <= turn_of_vertex_[w])
+                other.turn.load(std::memory_order_acquire) <= turn_of_vertex_[w])
                 return false;
         }
+        if (inner) inner_since_[v] = start_;
         return true;
     }
 
@@ -191,16 +204,16 @@ private:
         while (block.turn.load(std::memory_order_relaxed) != no_turn) {
             Item& item = block.items[block.next];
             const mesh::VertexId v = vertices[item.turn];
-            StarScratch& scratch = block.scratch;
             if (!block.prepared) {
                 prefetch(block.next, block.items.size(),
                          [&](std::size_t at) { return vertices[block.items[at].turn]; });
-                scratch.star = complex_.cached_star_and_neighbours(v, scratch.walk);
-                block.prepared = true;
             }
-            if (!is_free(block, item.turn)) break;
-            block.prepared = false;
+            if (!is_inner(v)) {
+                prepare(block, v);
+                if (!is_free(block, v, item.turn)) break;
+            }
             run_next(block, v, item, action);
+            block.prepared = false;
             ++block.next;
             block.turn.store(
                 block.next < block.items.size() ? block.items[block.next].turn : no_turn,
@@ -208,6 +221,12 @@ private:
         }
         guard.normal = true;
         return block.next > first;
+    }
+
+    void prepare(Block& block, mesh::VertexId v) {
+        if (block.prepared) return;
+        block.scratch.star = complex_.cached_star_and_neighbours(v, block.scratch.walk);
+        block.prepared = true;
     }
 
     // What follows in the order of the list.
@@ -227,6 +246,7 @@ private:
         StarScratch& scratch = block.scratch;
         if (!action.ready(item.turn)) return;
         item.attempted = true;
+        prepare(block, v);
         if (!action.attempt(item.turn, scratch)) return;
         complex_.place(v, scratch.place, scratch.star.tets, scratch.qualities);
         const std::size_t before = block.changed.size();
@@ -236,19 +256,21 @@ private:
 
     mesh::Complex& complex_;
     std::array<Block, most_blocks> blocks_;
-    unsigned levels_ = 0;
+    unsigned coarser_ = 0;  // by how many levels the blocks are larger than the leaves of the tree
+    unsigned loops_ = 0;    // over lists that were divided
     struct Plane {
         unsigned axis = 0;
         double at = 0.0;
     };
     std::array<Plane, most_blocks> planes_;  // of the tree; node i has the children 2 i and 2 i + 1
     std::vector<Vec3> samples_;
-    // Per vertex: its block, no_block if it is not in the list; and its turn, if it is. The blocks
-    // alone fit into the caches, and most neighbours are in the same block.
-    std::vector<std::uint8_t> block_of_vertex_;
-    std::vector<std::uint32_t> turn_of_vertex_;
-    std::vector<std::uint8_t> block_of_;  // per turn
-    std::uint32_t start_ = 0;             // the change clock at the start
+    // Per vertex: the leaf of the tree in which it was first; no_leaf if it was in no list since
+    // the planes were made. It need not be the leaf where the vertex is now.
+    std::vector<std::uint8_t> leaf_of_vertex_;
+    std::vector<std::uint32_t> inner_since_;     // per vertex: a time at which it was inner, or 0
+    std::vector<std::uint32_t> turn_of_vertex_;  // no_turn if it is not in the list
+    std::vector<std::uint8_t> block_of_;         // per turn
+    std::uint32_t start_ = 0;                    // the change clock at the start
 };
 
 }  // namespace dsc::kernel
