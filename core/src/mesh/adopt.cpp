@@ -50,7 +50,8 @@ void check_arrays(const TetMesh& mesh, std::string_view name) {
 }
 
 // Drops unused points; `tets` receive the new indices.
-std::vector<Vec3> used_points(const TetMesh& mesh, LargeVector<Tet>& tets, AdoptReport& report) {
+std::vector<Vec3> used_points(const TetMesh& mesh, LargeVector<TetCorners>& tets,
+                              AdoptReport& report) {
     std::vector<std::uint32_t> index(mesh.points.size(), none);
     for (const auto& t : mesh.tets) {
         for (const std::uint32_t v : t) index[v] = 0;
@@ -66,7 +67,7 @@ std::vector<Vec3> used_points(const TetMesh& mesh, LargeVector<Tet>& tets, Adopt
     }
     tets.resize(mesh.tets.size());
     for (std::size_t i = 0; i < tets.size(); ++i) {
-        for (unsigned k = 0; k < 4; ++k) tets[i].v[k] = index[mesh.tets[i][k]];
+        for (unsigned k = 0; k < 4; ++k) tets[i][k] = index[mesh.tets[i][k]];
     }
     return points;
 }
@@ -79,7 +80,7 @@ std::vector<T> per_block(std::size_t count) {
     return std::vector<T>(count / adopt_block + 1);
 }
 
-void orient(const std::vector<Vec3>& points, LargeVector<Tet>& tets, std::string_view name,
+void orient(const std::vector<Vec3>& points, LargeVector<TetCorners>& tets, std::string_view name,
             AdoptReport& report, Workers* workers) {
     struct Found {
         std::size_t turned = 0, flat = 0, first_flat = 0;
@@ -88,7 +89,7 @@ void orient(const std::vector<Vec3>& points, LargeVector<Tet>& tets, std::string
     for_blocks(workers, tets.size(), adopt_block, [&](std::size_t begin, std::size_t end) {
         Found found;
         for (std::size_t i = begin; i < end; ++i) {
-            auto& v = tets[i].v;
+            auto& v = tets[i];
             const int sign =
                 geometry::orient3d(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
             if (sign < 0) {
@@ -108,9 +109,8 @@ void orient(const std::vector<Vec3>& points, LargeVector<Tet>& tets, std::string
     }
     if (flat == 0) return;
     refuse(name, "mesh.flat_tet",
-           "tet " + std::to_string(first) + " at " +
-               geometry::point_text(points[tets[first].v[0]]) + " has zero volume (" +
-               std::to_string(flat) + " in total)",
+           "tet " + std::to_string(first) + " at " + geometry::point_text(points[tets[first][0]]) +
+               " has zero volume (" + std::to_string(flat) + " in total)",
            "remove flat tets, or write the coordinates with more digits");
 }
 
@@ -131,11 +131,11 @@ struct Fault {
 
 // Joins equal faces: `neighbours` receive what lies across each face. Positive tets on the two
 // sides of a face have its vertices in opposite order.
-void join_faces(const std::vector<Vec3>& points, const LargeVector<Tet>& tets,
+void join_faces(const std::vector<Vec3>& points, const LargeVector<TetCorners>& tets,
                 LargeVector<TetNeighbours>& neighbours, std::string_view name, Workers* workers) {
     neighbours.assign(tets.size(), {none, none, none, none});
     FaceTable table =
-        deal_faces(points.size(), tets.size(), [&](std::size_t t) { return &tets[t].v; });
+        deal_faces(points.size(), tets.size(), [&](std::size_t t) { return &tets[t]; });
     struct Found {
         Fault crowded, same_side;
     };
@@ -179,11 +179,11 @@ void join_faces(const std::vector<Vec3>& points, const LargeVector<Tet>& tets,
     }
 }
 
-void check_volume(const std::vector<Vec3>& points, const LargeVector<Tet>& tets,
+void check_volume(const std::vector<Vec3>& points, const LargeVector<TetCorners>& tets,
                   std::string_view name) {
     double sum = 0.0;
-    for (const Tet& t : tets)
-        sum += geometry::tet_volume(points[t.v[0]], points[t.v[1]], points[t.v[2]], points[t.v[3]]);
+    for (const TetCorners& v : tets)
+        sum += geometry::tet_volume(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
     const Vec3 size = bounding_box(points).size();
     const double box = size.x() * size.y() * size.z();
     if (std::abs(sum - box) <= 1e-9 * box) return;
@@ -319,7 +319,7 @@ Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, d
     AdoptReport& out = report != nullptr ? *report : local;
     out = {};
     check_arrays(mesh, name);
-    LargeVector<Tet> tets;
+    LargeVector<TetCorners> tets;
     LargeVector<TetNeighbours> neighbours;
     std::vector<Vec3> points = used_points(mesh, tets, out);
     orient(points, tets, name, out, workers);

@@ -277,7 +277,7 @@ VertexId Complex::replace(Edit& edit) {
     return created;
 }
 
-Complex Complex::assemble(std::vector<Vec3> points, LargeVector<Tet> tets,
+Complex Complex::assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets,
                           LargeVector<TetNeighbours> neighbours, std::span<const Label> labels,
                           Workers* workers) {
     constexpr std::size_t assembled_tets = 16384, assembled_stars = 2048;  // per block
@@ -289,19 +289,20 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<Tet> tets,
     }
     c.shape_dates_.assign(c.vertices_.size(), 1);
     c.stars_.grow(c.vertices_.size());
-    c.tets_ = std::move(tets);
+    c.tets_.resize(tets.size());
     c.neighbours_ = std::move(neighbours);
     const std::size_t n = c.tets_.size();
     c.changes_.reserve(n);
     c.clock_ = 1;
-    for_blocks(workers, n, assembled_tets, [&c, labels](std::size_t begin, std::size_t end) {
+    for_blocks(workers, n, assembled_tets, [&c, &tets, labels](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
-            const auto& v = c.tets_[t].v;
+            const TetCorners& v = tets[t];
             const double quality = geometry::tet_quality(c.position(v[0]), c.position(v[1]),
                                                          c.position(v[2]), c.position(v[3]));
             c.tets_[t] = {v, static_cast<float>(quality), 0, 1, labels[t]};
         }
     });
+    tets = {};
     for (TetId t = 0; t < n; ++t) {
         const auto& v = c.tets_[t].v;
         for (unsigned f = 0; f < 4; ++f) {

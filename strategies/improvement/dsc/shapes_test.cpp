@@ -18,7 +18,7 @@ using repair::Operation;
 mesh::Complex two_tets(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 middle = (a + b + c) / 3.0, up = (b - a).cross(c - a).normalized();
     // The face that two tets share lies opposite corner 3 of both.
-    const LargeVector<mesh::Tet> tets = {{{0, 1, 2, 3}}, {{0, 2, 1, 4}}};
+    const LargeVector<mesh::TetCorners> tets = {{0, 1, 2, 3}, {0, 2, 1, 4}};
     const LargeVector<mesh::TetNeighbours> neighbours = {
         {mesh::none, mesh::none, mesh::none, 1U << 2U | 3U},
         {mesh::none, mesh::none, mesh::none, 0U << 2U | 3U}};

@@ -42,10 +42,13 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_vertices = {
 inline constexpr std::array<std::array<std::uint8_t, 2>, 6> edge_vertices = {
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
+/// The vertices of a tet.
+using TetCorners = std::array<VertexId, 4>;
+
 /// What is stored of a tet, without its neighbours. 32 bytes, so that it lies in one line of the
 /// caches: what reads a part of it nearly always reads others.
 struct alignas(32) Tet {
-    std::array<VertexId, 4> v;
+    TetCorners v;
     float quality = 0.0F;
     std::uint32_t date = 0;
     std::uint32_t birth_date = 0;
@@ -275,8 +278,8 @@ public:
 
     // ---- making and copying ---------------------------------------------------------------------
     /// Builds a complex from arrays that are already positive, conforming and box-filling (for
-    /// files see adopt()). Of the tets, only the vertices count.
-    static Complex assemble(std::vector<Vec3> points, LargeVector<Tet> tets,
+    /// files see adopt()).
+    static Complex assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets,
                             LargeVector<TetNeighbours> neighbours, std::span<const Label> labels,
                             Workers* workers = nullptr);
     /// Compact arrays: vertices in birth order, tets in the order of their sorted births. The same
