@@ -204,9 +204,9 @@ private:
     std::vector<Flatness> flat_memory_;
     double flat_limit_ = 0.0;  // the flatness for which they hold
 
-    // What is remembered of the last refusal at a vertex, for each kind of smoothing. The date is
-    // the change clock at that time. A new vertex in the same slot has a star with a later date, so
-    // the refusal does not count for it.
+    // The last outcome at a vertex for each kind of smoothing, and the time of the change clock
+    // then. The slot of a deleted vertex can receive a new vertex. The star of the new vertex has a
+    // later date, so the old outcome does not count for it.
     struct Memory {
         std::array<std::uint32_t, 2> date = {0, 0};
         float accept_above = 0.0F;  // of the Laplacian; the other kind has no bound

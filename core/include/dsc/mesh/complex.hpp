@@ -114,7 +114,8 @@ struct Star {
     std::span<const VertexId> neighbours;
 };
 
-/// Arrays for walks round a vertex, for one thread at a time. Reuse one object.
+/// Memory for walks round a vertex. Each thread needs its own object. An object can serve many
+/// walks, and then it allocates no new memory.
 struct StarWalk {
     TetIndex places;
     std::vector<TetId> tets;
@@ -241,8 +242,8 @@ public:
     /// Commits a linked edit; its tets must be positive. Returns the id of the created vertex, or
     /// none. [step]
     VertexId replace(Edit& edit);
-    /// Moves a vertex. `star` is the list of its tets. Each tet must be positive after the move.
-    /// [step]
+    /// Moves a vertex. `star` must list all tets that contain it. After the move, every one of
+    /// these tets must be positive. [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star);
     /// The same with known qualities of the tets at the new position, in the order of the star.
     /// [step]
