@@ -90,14 +90,14 @@ struct Destinations::Pass {
         return !has_arrived(all.complex_, limits, v, entry.place);
     }
 
-    bool attempt(std::size_t i, StarScratch& scratch) const {
+    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t) const {
         const Motion motion = plan_move(all.complex_, limits, all.active_[i], at(i).place,
                                         options.free_path, scratch);
         decide(i, motion == Motion::arrived ? arrived : motion == Motion::moved ? moved : stopped);
         return motion != Motion::blocked;
     }
 
-    void settle(std::size_t i, bool, std::uint32_t date) const {
+    void settle(std::size_t i, std::uint32_t date) const {
         const auto fate = static_cast<Fate>(all.fates_[i]);
         if (fate == asleep) return;
         ++all.tried_;

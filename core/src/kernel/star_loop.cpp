@@ -48,23 +48,34 @@ void StarLoop::make_planes(std::span<const mesh::VertexId> vertices) {
     for (std::size_t turn = 0; turn < vertices.size(); turn += stride)
         samples_.push_back(complex_.position(vertices[turn]));
     split(1, 0, samples_);
-    std::fill(leaf_of_vertex_.begin(), leaf_of_vertex_.end(), no_leaf);
+    std::fill(known_of_vertex_.begin(), known_of_vertex_.end(), no_leaf);
     std::fill(inner_since_.begin(), inner_since_.end(), 0);
 }
 
-// Writes block_of_. A vertex keeps its leaf as long as the planes stay, so that inner vertices are
-// known again in the next loop.
+// The leaf of a neighbour, so that a shape that moves on takes its leaves along.
+std::uint8_t StarLoop::leaf_of_new(mesh::VertexId v) const {
+    for (const mesh::VertexId w : complex_.tet(complex_.seed(v)).v) {
+        const std::uint8_t leaf = known_of_vertex_[w] & leaf_bits;
+        if (leaf != no_leaf) return leaf;
+    }
+    return leaf_at(complex_.position(v));
+}
+
+// Writes block_of_, and what is known of the vertices.
 void StarLoop::find_blocks(std::span<const mesh::VertexId> vertices, Workers& workers) {
     block_of_.resize(vertices.size());
     workers.for_blocks(vertices.size(), looked_up, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
             const mesh::VertexId v = vertices[turn];
-            block_of_[turn] =
-                leaf_of_vertex_[v] != no_leaf ? leaf_of_vertex_[v] : leaf_at(complex_.position(v));
+            const std::uint8_t leaf = known_of(v) & leaf_bits;
+            block_of_[turn] = leaf;
+            const auto known = static_cast<std::uint8_t>(leaf | (stays_inner(v) ? inner_bit : 0));
+            std::atomic_ref(known_of_vertex_[v]).store(known, std::memory_order_relaxed);
         }
     });
     for (std::size_t turn = 0; turn < vertices.size(); ++turn) {
-        leaf_of_vertex_[vertices[turn]] = block_of_[turn];
+        const mesh::VertexId v = vertices[turn];
+        if (block_of_[turn] == no_leaf) block_of_[turn] = known_of_vertex_[v] = leaf_of_new(v);
         block_of_[turn] = static_cast<std::uint8_t>(block_of_[turn] >> coarser_);
     }
 }
@@ -77,6 +88,31 @@ bool StarLoop::is_balanced() const {
            3 * block_of_.size() / (most_blocks >> coarser_) + least_block;
 }
 
+// Writes turn_of_vertex_; false if a vertex occurs twice, and so has two turns.
+bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& workers) {
+    std::atomic<bool> twice{false};
+    workers.for_blocks(vertices.size(), looked_up, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t turn = begin; turn < end; ++turn) {
+            const std::atomic_ref known(turn_of_vertex_[vertices[turn]]);
+            if (known.exchange(static_cast<std::uint32_t>(turn), std::memory_order_relaxed) !=
+                no_turn)
+                twice.store(true, std::memory_order_relaxed);
+        }
+    });
+    return !twice;
+}
+
+void StarLoop::forget(std::span<const mesh::VertexId> vertices, Workers& workers) {
+    workers.for_blocks(vertices.size(), looked_up, [&](std::size_t begin, std::size_t end) {
+        for (const mesh::VertexId v : vertices.subspan(begin, end - begin)) {
+            std::atomic_ref(turn_of_vertex_[v]).store(no_turn, std::memory_order_relaxed);
+            const std::atomic_ref known(known_of_vertex_[v]);
+            known.store(known.load(std::memory_order_relaxed) & leaf_bits,
+                        std::memory_order_relaxed);
+        }
+    });
+}
+
 // False if the items cannot be divided.
 bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers) {
     if (vertices.size() < least_split || vertices.size() >= no_turn) return false;
@@ -84,9 +120,13 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     while (levels < most_levels && vertices.size() >> (levels + 1) >= least_block) ++levels;
     coarser_ = most_levels - levels;
     if (turn_of_vertex_.size() < complex_.vertex_slots()) {
-        leaf_of_vertex_.resize(complex_.vertex_slots(), no_leaf);
+        known_of_vertex_.resize(complex_.vertex_slots(), no_leaf);
         inner_since_.resize(complex_.vertex_slots(), 0);
         turn_of_vertex_.resize(complex_.vertex_slots(), no_turn);
+    }
+    if (!take_turns(vertices, workers)) {
+        forget(vertices, workers);
+        return false;
     }
     const bool is_new = loops_++ % most_loops == 0;
     if (is_new) make_planes(vertices);
@@ -100,32 +140,29 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
         block.changed.clear();
         block.next = block.settled = block.listed = 0;
         block.prepared = false;
+        block.waits_for = no_wait;
     }
-    for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
-        const mesh::VertexId v = vertices[turn];
-        if (turn_of_vertex_[v] != no_turn) {  // It occurs twice, so it has two turns.
-            for (const mesh::VertexId w : vertices) turn_of_vertex_[w] = no_turn;
-            return false;
-        }
-        turn_of_vertex_[v] = turn;
+    for (std::uint32_t turn = 0; turn < vertices.size(); ++turn)
         blocks_[block_of_[turn]].items.push_back({turn});
-    }
     for (Block& block : blocks_)
         block.turn = block.items.empty() ? no_turn : block.items.front().turn;
     return true;
 }
 
-StarLoop::Offer StarLoop::farthest_behind(std::uint32_t refused) const {
+StarLoop::Offer StarLoop::farthest_behind() const {
+    const std::size_t count = most_blocks >> coarser_;
+    std::array<std::uint32_t, most_blocks> turns;
+    for (std::size_t b = 0; b < count; ++b)
+        turns[b] = blocks_[b].turn.load(std::memory_order_acquire);
     Offer offer;
     std::uint32_t least = no_turn;
-    for (std::size_t b = 0; b < most_blocks >> coarser_; ++b) {
-        const std::uint32_t turn = blocks_[b].turn.load(std::memory_order_acquire);
-        if (turn == no_turn) continue;
+    for (std::size_t b = 0; b < count; ++b) {
+        if (turns[b] == no_turn) continue;
         offer.finished = false;
-        if (turn >= least || (refused >> b & 1U) != 0 ||
-            blocks_[b].taken.load(std::memory_order_relaxed))
-            continue;
-        least = turn;
+        if (turns[b] >= least || blocks_[b].taken.load(std::memory_order_relaxed)) continue;
+        const std::uint64_t wait = blocks_[b].waits_for.load(std::memory_order_relaxed);
+        if (wait != no_wait && turns[wait & 0xffU] <= wait >> 8U) continue;
+        least = turns[b];
         offer.block = b;
     }
     return offer;

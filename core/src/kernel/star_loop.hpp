@@ -41,11 +41,10 @@ public:
 
     /// For each vertices[i], which must be alive:
     /// - action.ready(i): false if there is nothing to try [parallel]
-    /// - action.attempt(i, scratch): scratch.star is filled, with the neighbours if
-    ///   Action::needs_neighbours; true if the vertex moves to scratch.place, with
-    ///   scratch.qualities [parallel]
-    /// - action.settle(i, attempted, date): in the order of the list; date is the time of its turn
-    ///   [step]
+    /// - action.attempt(i, scratch, date): scratch.star is filled, with the neighbours if
+    ///   Action::needs_neighbours; date is the time of its turn; true if the vertex moves to
+    ///   scratch.place, with scratch.qualities [parallel]
+    /// - action.settle(i, date): in the order of the list [step]
     /// The change clock advances by one per vertex, whether it moves or not.
     /// ready() and attempt() may read the star and the date of their vertex, and everything that
     /// neither place() nor settle() of other vertices writes.
@@ -63,10 +62,9 @@ public:
         struct Forget {
             StarLoop& loop;
             std::span<const mesh::VertexId> vertices;
-            ~Forget() {
-                for (const mesh::VertexId v : vertices) loop.turn_of_vertex_[v] = no_turn;
-            }
-        } const forget{*this, vertices};
+            Workers& workers;
+            ~Forget() { loop.forget(vertices, workers); }
+        } const forget{*this, vertices, *workers};
         const auto body = [&](std::size_t, std::size_t) { work(vertices, action); };
         workers->for_blocks(workers->threads(), 1, body);
         complex_.advance_clock(date_of(vertices.size()) - 1);
@@ -77,7 +75,10 @@ private:
     static constexpr unsigned most_levels = 4;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_turn = 0xffffffffU;
-    static constexpr std::uint8_t no_leaf = 0xff;
+    // What is known of a vertex: its leaf of the tree, and whether it is inner. A vertex stays in
+    // the leaf where it was first, until the planes are made again.
+    static constexpr std::uint8_t no_leaf = most_blocks, leaf_bits = 2 * most_blocks - 1,
+                                  inner_bit = 0x80;
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
                                                                    // asked for data
 
@@ -85,7 +86,6 @@ private:
     struct Item {
         std::uint32_t turn;
         std::uint32_t changes = 0;  // how many tets its move put on the list of the block
-        bool attempted = false;
     };
 
     // On cache lines of its own. What a thread finds out about the items lies here, too, so that
@@ -93,6 +93,7 @@ private:
     struct alignas(64) Block {
         std::atomic<std::uint32_t> turn{0};  // of the next item; no_turn after the last one
         std::atomic<bool> taken{false};
+        std::atomic<std::uint64_t> waits_for{no_wait};  // wait_for()
         std::size_t next = 0;
         bool prepared = false;                // scratch has the star and the neighbours of the next
         std::vector<Item> items;              // in the order of their turns
@@ -104,9 +105,16 @@ private:
         void give_back() { taken.store(false, std::memory_order_release); }
     };
 
+    // The next item of a block waits until another block is past this turn. Turns only grow, so a
+    // wait that has ended need not be removed.
+    static constexpr std::uint64_t no_wait = ~std::uint64_t{0};
+    static std::uint64_t wait_for(std::uint8_t block, std::uint32_t turn) {
+        return std::uint64_t{turn} << 8U | block;
+    }
+
     // What a thread that looks for work finds.
     struct Offer {
-        std::size_t block = most_blocks;  // most_blocks: none that is not taken or refused
+        std::size_t block = most_blocks;  // most_blocks: none that is not taken and does not wait
         bool finished = true;             // all items have been processed
     };
 
@@ -117,28 +125,47 @@ private:
     void make_planes(std::span<const mesh::VertexId> vertices);
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
     void find_blocks(std::span<const mesh::VertexId> vertices, Workers& workers);
+    std::uint8_t leaf_of_new(mesh::VertexId v) const;
+    bool take_turns(std::span<const mesh::VertexId> vertices, Workers& workers);
+    void forget(std::span<const mesh::VertexId> vertices, Workers& workers);
     bool is_balanced() const;
     std::uint8_t leaf_at(const Vec3& place) const;
-    Offer farthest_behind(std::uint32_t refused) const;
+    Offer farthest_behind() const;
 
-    // Whether all neighbours are known to be in the same leaf as v. Then the order of the block is
-    // enough, and the star of a vertex that is not ready need not be looked at.
-    bool is_inner(mesh::VertexId v) const {
+    // What is known of a vertex. Only leaf_in() changes it while threads work.
+    std::uint8_t known_of(mesh::VertexId v) {
+        return std::atomic_ref(known_of_vertex_[v]).load(std::memory_order_relaxed);
+    }
+    // Whether all neighbours were in the leaf of v at the start of this loop. Then the order of the
+    // block is enough, and the star of a vertex that is not ready need not be looked at; also, only
+    // the thread that has the block writes to v.
+    bool is_inner(mesh::VertexId v) { return (known_of(v) & inner_bit) != 0; }
+    bool stays_inner(mesh::VertexId v) const {
         return inner_since_[v] != 0 && complex_.shape_date(v) <= inner_since_[v];
     }
+    // The leaf of v. A vertex that has none, because it was in no list so far, gets `offered`.
+    std::uint8_t leaf_in(mesh::VertexId v, std::uint8_t offered) {
+        std::uint8_t leaf = known_of(v) & leaf_bits;
+        if (leaf == no_leaf && std::atomic_ref(known_of_vertex_[v])
+                                   .compare_exchange_strong(leaf, offered, std::memory_order_relaxed))
+            return offered;
+        return leaf;
+    }
     // Whether the neighbours that come earlier have been processed.
-    bool is_free(const Block& block, mesh::VertexId v, std::uint32_t turn) {
-        const std::uint8_t own = leaf_of_vertex_[v];
+    bool is_free(Block& block, mesh::VertexId v, std::uint32_t turn) {
+        const std::uint8_t own = known_of(v) & leaf_bits;
         bool inner = true;
         for (const mesh::VertexId w : block.scratch.star.neighbours) {
-            const std::uint8_t leaf = leaf_of_vertex_[w];
+            const std::uint8_t leaf = leaf_in(w, own);
             if (leaf == own) continue;
             inner = false;
-            if (leaf == no_leaf || leaf >> coarser_ == own >> coarser_) continue;
-            const Block& other = blocks_[leaf >> coarser_];
-            if (turn_of_vertex_[w] < turn &&
-                other.turn.load(std::memory_order_acquire) <= turn_of_vertex_[w])
+            if (leaf >> coarser_ == own >> coarser_) continue;
+            const auto other = static_cast<std::uint8_t>(leaf >> coarser_);
+            const std::uint32_t earlier = turn_of_vertex_[w];
+            if (earlier < turn && blocks_[other].turn.load(std::memory_order_acquire) <= earlier) {
+                block.waits_for.store(wait_for(other, earlier), std::memory_order_relaxed);
                 return false;
+            }
         }
         if (inner) inner_since_[v] = start_;
         return true;
@@ -164,33 +191,29 @@ private:
             } else {
                 scratch.star = {complex_.cached_star(v, scratch.walk), {}};
             }
-            if (action.attempt(i, scratch))
+            if (action.attempt(i, scratch, date_of(i)))
                 complex_.move(v, scratch.place, scratch.star.tets, scratch.qualities);
         }
-        action.settle(i, ready, date_of(i));
+        action.settle(i, date_of(i));
     }
 
     // Until all items have been processed. The earliest of the items that are left can always be
     // processed, so threads do not wait for each other without end, and one thread is enough.
     template <class Action>
     void work(std::span<const mesh::VertexId> vertices, Action& action) {
-        std::uint32_t refused = 0;  // bits of the blocks that were not free
-        for (Offer offer = farthest_behind(0); !offer.finished; offer = farthest_behind(refused)) {
+        for (Offer offer = farthest_behind(); !offer.finished; offer = farthest_behind()) {
             if (offer.block == most_blocks) {
-                refused = 0;
                 std::this_thread::yield();
                 continue;
             }
             Block& block = blocks_[offer.block];
-            if (!block.take()) continue;
-            const bool some = run_block(block, vertices, action);
-            refused = some ? 0 : refused | 1U << offer.block;
+            if (block.take()) run_block(block, vertices, action);
         }
     }
 
-    // Runs a taken block as far as it goes and gives it back; false if no item was free.
+    // Runs a taken block as far as it goes and gives it back.
     template <class Action>
-    bool run_block(Block& block, std::span<const mesh::VertexId> vertices, Action& action) {
+    void run_block(Block& block, std::span<const mesh::VertexId> vertices, Action& action) {
         // An exception ends the block, so that nobody waits for it.
         struct Guard {
             Block& block;
@@ -200,7 +223,6 @@ private:
                 block.give_back();
             }
         } guard{block};
-        const std::size_t first = block.next;
         while (block.turn.load(std::memory_order_relaxed) != no_turn) {
             Item& item = block.items[block.next];
             const mesh::VertexId v = vertices[item.turn];
@@ -220,7 +242,6 @@ private:
                 std::memory_order_release);
         }
         guard.normal = true;
-        return block.next > first;
     }
 
     void prepare(Block& block, mesh::VertexId v) {
@@ -237,7 +258,7 @@ private:
             const Item& item = block.items[block.settled++];
             complex_.add_changes(std::span(block.changed).subspan(block.listed, item.changes));
             block.listed += item.changes;
-            action.settle(turn, item.attempted, date_of(turn));
+            action.settle(turn, date_of(turn));
         }
     }
 
@@ -245,12 +266,12 @@ private:
     void run_next(Block& block, mesh::VertexId v, Item& item, Action& action) {
         StarScratch& scratch = block.scratch;
         if (!action.ready(item.turn)) return;
-        item.attempted = true;
         prepare(block, v);
-        if (!action.attempt(item.turn, scratch)) return;
+        if (!action.attempt(item.turn, scratch, date_of(item.turn))) return;
         complex_.place(v, scratch.place, scratch.star.tets, scratch.qualities);
         const std::size_t before = block.changed.size();
-        complex_.date_move(v, scratch.star, date_of(item.turn), block.changed);
+        complex_.date_move(v, scratch.star, date_of(item.turn), block.changed,
+                           [this](mesh::VertexId w) { return is_inner(w); });
         item.changes = static_cast<std::uint32_t>(block.changed.size() - before);
     }
 
@@ -264,9 +285,7 @@ private:
     };
     std::array<Plane, most_blocks> planes_;  // of the tree; node i has the children 2 i and 2 i + 1
     std::vector<Vec3> samples_;
-    // Per vertex: the leaf of the tree in which it was first; no_leaf if it was in no list since
-    // the planes were made. It need not be the leaf where the vertex is now.
-    std::vector<std::uint8_t> leaf_of_vertex_;
+    std::vector<std::uint8_t> known_of_vertex_;  // leaf | inner_bit
     std::vector<std::uint32_t> inner_since_;     // per vertex: a time at which it was inner, or 0
     std::vector<std::uint32_t> turn_of_vertex_;  // no_turn if it is not in the list
     std::vector<std::uint8_t> block_of_;         // per turn

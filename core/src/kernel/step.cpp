@@ -70,17 +70,19 @@ struct Deformer::State::Smoothing {
     bool ready(std::size_t i) const {
         return decide(i, may_smooth(state.bench, request(i).vertices[0], request(i).accept_above));
     }
-    bool attempt(std::size_t i, StarScratch& scratch) const {
-        return decide(i, plan_laplacian(state.complex, state.bench.limits, request(i).vertices[0],
-                                        request(i).accept_above, scratch));
-    }
-    void settle(std::uint32_t i, bool attempted, std::uint32_t date) const {
-        const Outcome outcome = state.outcomes[first + i];
-        if (attempted && outcome.refused()) {
-            state.bench.remember(request(i).vertices[0], Workbench::Smoother::laplacian,
-                                 request(i).accept_above, outcome.reason(), date);
+    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t date) const {
+        const VertexId v = request(i).vertices[0];
+        const float accept_above = request(i).accept_above;
+        const Outcome outcome =
+            plan_laplacian(state.complex, state.bench.limits, v, accept_above, scratch);
+        if (outcome.refused()) {
+            state.bench.remember(v, Workbench::Smoother::laplacian, accept_above, outcome.reason(),
+                                 date);
         }
-        state.record(first + i, outcome, date, report);
+        return decide(i, outcome);
+    }
+    void settle(std::uint32_t i, std::uint32_t date) const {
+        state.record(first + i, state.outcomes[first + i], date, report);
     }
 };
 
@@ -104,6 +106,7 @@ std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) 
             complex.prefetch(requests[i + ahead].tet);
         smoothed.push_back(requests[i].vertices[0]);
     }
+    bench.provide_memory();
     Smoothing action{*this, static_cast<std::uint32_t>(first), report};
     star_loop.run(smoothed, workers, action);
     return smoothed.size();

@@ -172,7 +172,7 @@ std::optional<Refusal> Workbench::known_refusal(VertexId v, Smoother smoother,
 
 Refusal Workbench::remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal,
                             std::uint32_t date) {
-    if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots());
+    provide_memory();
     const auto i = static_cast<std::size_t>(smoother);
     Memory& m = memory_[v];
     m.date[i] = date;

@@ -168,8 +168,13 @@ public:
     Refusal remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal) {
         return remember(v, smoother, accept_above, refusal, complex.clock());
     }
+    /// [parallel] for different vertices, after provide_memory().
     Refusal remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal,
                      std::uint32_t date);
+    /// Makes room for the refusals of all vertices. [step]
+    void provide_memory() {
+        if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots());
+    }
     /// Forgets all refusals, because the limits have changed.
     void forget_refusals() { memory_.clear(); }
 

@@ -3,7 +3,6 @@
 #include "dsc/mesh/complex.hpp"
 
 #include <algorithm>
-#include <atomic>
 
 #include <dsc/geometry/quality.hpp>
 
@@ -129,24 +128,6 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
     }
     vertices_[v].date = clock_;
     for (const VertexId w : neighbours) vertices_[w].date = clock_;
-}
-
-void Complex::date_move(VertexId v, const Star& star, std::uint32_t date,
-                        std::vector<TetId>& changed) {
-    for (const TetId t : star.tets) {
-        if (tets_[t].date <= taken_clock_) changed.push_back(t);
-        tets_[t].date = date;
-    }
-    // Two threads may date the same vertex, if it lies between the vertices that they move.
-    const auto raise = [date](std::uint32_t& value) {
-        const std::atomic_ref<std::uint32_t> latest(value);
-        std::uint32_t known = latest.load(std::memory_order_relaxed);
-        while (known < date &&
-               !latest.compare_exchange_weak(known, date, std::memory_order_relaxed)) {
-        }
-    };
-    raise(vertices_[v].date);
-    for (const VertexId w : star.neighbours) raise(vertices_[w].date);
 }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {

@@ -8,6 +8,7 @@
 // complex: replace(), move() and relabel(). Each keeps it valid.
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -259,7 +260,10 @@ public:
     /// and advance_clock() goes to a time that is not before the last move [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
-    void date_move(VertexId v, const Star& star, std::uint32_t date, std::vector<TetId>& changed);
+    /// `alone(w)`: whether no other thread can date a move round neighbour w meanwhile.
+    template <class Alone>
+    void date_move(VertexId v, const Star& star, std::uint32_t date, std::vector<TetId>& changed,
+                   const Alone& alone);
     void add_changes(std::span<const TetId> tets) {
         changes_.insert(changes_.end(), tets.begin(), tets.end());
     }
@@ -317,8 +321,10 @@ private:
     std::span<const TetId> own_star(VertexId v) const;
     void walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
     void walk_codes(VertexId v, std::vector<std::uint32_t>& out, TetIndex& places) const;
-    void find_neighbours(VertexId v, std::span<const std::uint32_t> codes,
-                         std::vector<VertexId>& out, TetIndex& seen) const;
+    void find_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
+                         TetIndex& seen) const;
+    void find_neighbours_by_codes(VertexId v, std::span<const std::uint32_t> codes,
+                                  std::vector<VertexId>& out, TetIndex& seen) const;
     void sort_by_birth(std::vector<VertexId>& list) const;
 
     LargeVector<Vertex> vertices_;
@@ -353,6 +359,30 @@ private:
     mutable std::vector<FaceSlot> face_table_;
     mutable std::uint32_t face_stamp_ = 0;
 };
+
+template <class Alone>
+void Complex::date_move(VertexId v, const Star& star, std::uint32_t date,
+                        std::vector<TetId>& changed, const Alone& alone) {
+    for (const TetId t : star.tets) {
+        if (tets_[t].date <= taken_clock_) changed.push_back(t);
+        tets_[t].date = date;
+    }
+    const auto raise = [this, date, &alone](VertexId w) {
+        std::uint32_t& own = vertices_[w].date;
+        if (alone(w)) {
+            own = date;
+            return;
+        }
+        // Two threads may date the same vertex, if it lies between the vertices that they move.
+        const std::atomic_ref<std::uint32_t> latest(own);
+        std::uint32_t known = latest.load(std::memory_order_relaxed);
+        while (known < date &&
+               !latest.compare_exchange_weak(known, date, std::memory_order_relaxed)) {
+        }
+    };
+    raise(v);
+    for (const VertexId w : star.neighbours) raise(w);
+}
 
 /// Mean length of the interface's edges; 0 without an interface. It does not depend on the slots.
 double mean_interface_edge(const Complex& complex);
