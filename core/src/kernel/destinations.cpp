@@ -63,7 +63,6 @@ void Destinations::on_collapse(VertexId kept, VertexId removed, double s) {
 
 // What a pass does with active_[i].
 struct Destinations::Pass {
-    static constexpr bool needs_neighbours = false;
     enum Fate : std::uint8_t { asleep, arrived, moved, stopped };
 
     Destinations& all;

@@ -77,7 +77,7 @@ Motion move_towards(Workbench& bench, VertexId v, const Vec3& destination, doubl
     mesh::Complex& c = bench.complex;
     if (has_arrived(c, bench.limits, v, destination)) return Motion::arrived;
     StarScratch& scratch = bench.move.get().star;
-    scratch.star = {c.cached_star(v, scratch.walk), {}};
+    scratch.star = c.cached_star(v, scratch.walk);
     const Motion motion = plan_move(c, bench.limits, v, destination, free_path, scratch);
     if (motion != Motion::blocked) c.move(v, scratch.place, scratch.star.tets, scratch.qualities);
     return motion;

@@ -41,9 +41,8 @@ public:
 
     /// For each vertices[i], which must be alive:
     /// - action.ready(i): false if there is nothing to try [parallel]
-    /// - action.attempt(i, scratch, date): scratch.star is filled, with the neighbours if
-    ///   Action::needs_neighbours; date is the time of its turn; true if the vertex moves to
-    ///   scratch.place, with scratch.qualities [parallel]
+    /// - action.attempt(i, scratch, date): scratch.star is filled; date is the time of its turn;
+    ///   true if the vertex moves to scratch.place, with scratch.qualities [parallel]
     /// - action.settle(i, date): in the order of the list [step]
     /// The change clock advances by one per vertex, whether it moves or not.
     /// ready() and attempt() may read the star and the date of their vertex, and everything that
@@ -186,11 +185,7 @@ private:
         const bool ready = action.ready(i);
         complex_.advance_clock(date_of(i) - 1);
         if (ready) {
-            if constexpr (Action::needs_neighbours) {
-                scratch.star = complex_.cached_star_and_neighbours(v, scratch.walk);
-            } else {
-                scratch.star = {complex_.cached_star(v, scratch.walk), {}};
-            }
+            scratch.star = complex_.cached_star(v, scratch.walk);
             if (action.attempt(i, scratch, date_of(i)))
                 complex_.move(v, scratch.place, scratch.star.tets, scratch.qualities);
         }
@@ -246,7 +241,7 @@ private:
 
     void prepare(Block& block, mesh::VertexId v) {
         if (block.prepared) return;
-        block.scratch.star = complex_.cached_star_and_neighbours(v, block.scratch.walk);
+        block.scratch.star = complex_.cached_star(v, block.scratch.walk);
         block.prepared = true;
     }
 

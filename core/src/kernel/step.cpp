@@ -57,7 +57,6 @@ void Deformer::State::record(std::uint32_t i, Outcome outcome, std::uint32_t dat
 
 // Consecutive requests that smooth different vertices may run in parallel.
 struct Deformer::State::Smoothing {
-    static constexpr bool needs_neighbours = true;
     State& state;
     std::uint32_t first;  // request of vertex 0
     StepReport& report;

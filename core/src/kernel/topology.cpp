@@ -204,7 +204,7 @@ RegionFault TopologyStage::start(const Seed& seed, Region& region) {
     region.to = region.from;
     for (const VertexId v : seed.v) {
         if (v == mesh::none) continue;
-        const mesh::Label other = other_label(c, c.cached_star(v, walk_), region.from);
+        const mesh::Label other = other_label(c, c.cached_star(v, walk_).tets, region.from);
         if (other == region.from || (region.to != region.from && region.to != other))
             return RegionFault::labels;
         region.to = other;
@@ -234,7 +234,7 @@ bool TopologyStage::same_shell(std::span<const VertexId> from, std::span<const V
     }
     for (std::size_t i = 0; i < queue_.size(); ++i) {
         const VertexId v = queue_[i];
-        for (const TetId t : c.cached_star(v, walk_)) {
+        for (const TetId t : c.cached_star(v, walk_).tets) {
             const mesh::Tet& tet = c.tet(t);
             for (unsigned f = 0; f < 4; ++f) {
                 if (tet.v[f] == v || !c.interface_face(t, f)) continue;
@@ -376,7 +376,7 @@ void TopologyStage::remove_small_components(std::uint64_t step, std::span<const 
         const double limit = min_component * geometry::regular_tet_volume(bench_.length_at(v));
         // One seed per label: the star of a regular vertex has one group per label.
         seeds.clear();
-        for (const TetId t : c.cached_star(v, walk_)) {
+        for (const TetId t : c.cached_star(v, walk_).tets) {
             const bool known = std::any_of(seeds.begin(), seeds.end(),
                                            [&](TetId s) { return c.label(s) == c.label(t); });
             if (!known) seeds.push_back(t);

@@ -103,7 +103,7 @@ Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, Verte
 Outcome smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
     if (const Outcome o = may_smooth(bench, v, accept_above); o.refused()) return o;
     StarScratch& scratch = bench.smooth.get().star;
-    scratch.star = bench.complex.cached_star_and_neighbours(v, scratch.walk);
+    scratch.star = bench.complex.cached_star(v, scratch.walk);
     const Outcome o = plan_laplacian(bench.complex, bench.limits, v, accept_above, scratch);
     if (o.refused())
         return bench.remember(v, Workbench::Smoother::laplacian, accept_above, o.reason());
@@ -117,7 +117,7 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
     if (const Outcome o = smoothable(c, v); o.refused()) return o;
     if (const auto known = bench.known_refusal(v, smoother, 0.0F)) return *known;
     auto& [scratch, tried] = bench.smooth.get();
-    const std::span<const TetId> star = c.cached_star(v, scratch.walk);
+    const std::span<const TetId> star = c.cached_star(v, scratch.walk).tets;
     std::vector<float>& qualities = scratch.qualities;
     mesh::StarTrial trial(c, star, v, scratch.copy);
     qualities.resize(star.size());

@@ -12,7 +12,7 @@ constexpr std::uint32_t removed_node = none - 1;
 }  // namespace
 
 std::span<const TetId> LocalStar::star_with_places(VertexId v) {
-    const std::span<const TetId> star = complex_.cached_star(v, walk_);
+    const std::span<const TetId> star = complex_.cached_star(v, walk_).tets;
     places_.clear();
     for (const TetId t : star) places_.insert(t);
     return star;

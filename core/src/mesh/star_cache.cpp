@@ -83,10 +83,6 @@ void StarCache::reserve(Entry& entry, std::size_t wanted) {
     entry.capacity = static_cast<std::uint16_t>(size);
 }
 
-void StarCache::keep_tets(std::uint32_t v, std::span<const std::uint32_t> tets) {
-    keep(v, tets, {});
-}
-
 void StarCache::keep(std::uint32_t v, std::span<const std::uint32_t> tets,
                      std::span<const std::uint32_t> neighbours) {
     if (std::max(tets.size(), neighbours.size()) > most_tets) return;

@@ -76,52 +76,23 @@ void Complex::star(VertexId v, std::vector<TetId>& out) const {
     out.assign(star.begin(), star.end());
 }
 
-std::span<const TetId> Complex::own_star(VertexId v) const { return cached_star(v, walk_); }
+std::span<const TetId> Complex::own_star(VertexId v) const { return cached_star(v, walk_).tets; }
 
-std::span<const TetId> Complex::cached_star(VertexId v, StarWalk& walk) const {
-    if (const std::span<const TetId> known = stars_.tets(v); !known.empty()) return known;
-    walk_star(v, walk.tets, walk.places);
-    stars_.keep_tets(v, walk.tets);
-    const std::span<const TetId> stored = stars_.tets(v);
-    return stored.empty() ? walk.tets : stored;
-}
-
-Star Complex::cached_star_and_neighbours(VertexId v, StarWalk& walk) const {
-    if (const std::span<const VertexId> known = stars_.neighbours(v); !known.empty())
-        return {stars_.tets(v), known};
-    if (const std::span<const TetId> tets = stars_.tets(v); !tets.empty()) {
-        walk.tets.assign(tets.begin(), tets.end());
-        find_neighbours(v, walk.tets, walk.neighbours, walk.places);
-    } else {
-        walk_codes(v, walk.tets, walk.places);
-        find_neighbours_by_codes(v, walk.tets, walk.neighbours, walk.places);
-        for (TetId& t : walk.tets) t = neighbour_tet(t);
-    }
-    sort_by_birth(walk.neighbours);
+Star Complex::cached_star(VertexId v, StarWalk& walk) const {
+    if (const std::span<const TetId> known = stars_.tets(v); !known.empty())
+        return {known, stars_.neighbours(v)};
+    walk_codes(v, walk.tets, walk.places);
+    find_neighbours(v, walk.tets, walk.neighbours, walk.places);
+    for (TetId& t : walk.tets) t = neighbour_tet(t);
     stars_.keep(v, walk.tets, walk.neighbours);
     if (stars_.tets(v).empty()) return {walk.tets, walk.neighbours};
     return {stars_.tets(v), stars_.neighbours(v)};
 }
 
-void Complex::find_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
-                              TetIndex& seen) const {
-    seen.clear();
-    seen.insert(v);
-    if (out.size() < star.size() + 4) out.resize(star.size() + 4);
-    std::size_t count = 0;
-    for (const TetId t : star) {
-        for (const VertexId w : tets_[t].v) {
-            out[count] = w;
-            count += seen.insert(w) ? 1 : 0;
-        }
-    }
-    out.resize(count);
-}
-
 // `codes` are those of walk_codes(). Each tet has one corner that the tet before it on the walk
 // does not have: the one opposite the face through which it was reached.
-void Complex::find_neighbours_by_codes(VertexId v, std::span<const std::uint32_t> codes,
-                                       std::vector<VertexId>& out, TetIndex& seen) const {
+void Complex::find_neighbours(VertexId v, std::span<const std::uint32_t> codes,
+                              std::vector<VertexId>& out, TetIndex& seen) const {
     if (out.size() < codes.size() + 4) out.resize(codes.size() + 4);
     seen.clear();
     std::size_t count = 0;
@@ -136,6 +107,7 @@ void Complex::find_neighbours_by_codes(VertexId v, std::span<const std::uint32_t
         count += seen.insert(out[count]) ? 1 : 0;
     }
     out.resize(count);
+    sort_by_birth(out);
 }
 
 // Nearly all lists are short. Then the place of each vertex is the number of smaller births: the

@@ -17,7 +17,7 @@ constexpr std::size_t walk_block = 1024;  // vertices
 // label.
 void faces_led_by(const mesh::Complex& c, mesh::VertexId v, mesh::StarWalk& walk,
                   std::vector<RawFace>& out) {
-    for (const mesh::TetId t : c.cached_star(v, walk)) {
+    for (const mesh::TetId t : c.cached_star(v, walk).tets) {
         const mesh::Tet& tet = c.tet(t);
         for (unsigned f = 0; f < 4; ++f) {
             if (tet.v[f] == v) continue;

@@ -47,7 +47,6 @@ mesh::Complex plates() {
 
 // Shakes every vertex a little, each third one rests, and counts what the loop does.
 struct Shake {
-    static constexpr bool needs_neighbours = true;
     const mesh::Complex& complex;
     std::span<const VertexId> vertices;
     std::vector<std::uint8_t> attempts, settled;
@@ -56,7 +55,7 @@ struct Shake {
     std::atomic<int> collisions = 0;
 
     bool ready(std::size_t i) const { return i % 3 != 0; }
-    bool attempt(std::size_t i, StarScratch& scratch) {
+    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t) {
         ++attempts[i];
         const auto& [star, neighbours] = scratch.star;
         for (const TetId t : star) {
@@ -71,8 +70,8 @@ struct Shake {
         for (const TetId t : star) busy[t].fetch_sub(1);
         return i % 5 != 0;
     }
-    void settle(std::size_t i, bool attempted, std::uint32_t date) {
-        CHECK(attempted == (i % 3 != 0));
+    void settle(std::size_t i, std::uint32_t date) {
+        CHECK(attempts[i] == (i % 3 != 0 ? 1 : 0));
         ++settled[i];
         dates[i] = date;
     }
@@ -158,20 +157,18 @@ TEST_CASE("star loop: every vertex once, no tet held by two, the bits and dates 
 namespace {
 
 struct Throws {
-    static constexpr bool needs_neighbours = false;
     std::size_t at;
     std::vector<int> settled;
     bool ready(std::size_t i) const {
         if (i == at) throw std::runtime_error("at its turn");
         return false;
     }
-    bool attempt(std::size_t, StarScratch&) const { return false; }
-    void settle(std::size_t i, bool, std::uint32_t) { ++settled[i]; }
+    bool attempt(std::size_t, StarScratch&, std::uint32_t) const { return false; }
+    void settle(std::size_t i, std::uint32_t) { ++settled[i]; }
 };
 
 // Whether a vertex is tried depends on its date, as with remembered refusals.
 struct AfterNeighbours {
-    static constexpr bool needs_neighbours = true;
     const mesh::Complex& complex;
     std::span<const VertexId> vertices;
     std::vector<std::uint32_t> known;  // per vertex: the clock at its last turn
@@ -180,14 +177,14 @@ struct AfterNeighbours {
     bool ready(std::size_t i) const {
         return i % 7 == 0 || complex.vertex_date(vertices[i]) > known[vertices[i]];
     }
-    bool attempt(std::size_t i, StarScratch& scratch) {
+    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t) {
         ++tried[i];
         scratch.place = 0.9 * complex.position(vertices[i]) +
                         0.1 * complex.position(scratch.star.neighbours.front());
         scratch.qualities.assign(scratch.star.tets.size(), 0.5F);
         return i % 4 == 3;
     }
-    void settle(std::size_t i, bool, std::uint32_t date) { known[vertices[i]] = date; }
+    void settle(std::size_t i, std::uint32_t date) { known[vertices[i]] = date; }
 };
 
 std::pair<std::vector<std::uint8_t>, std::vector<std::uint32_t>> after_neighbours(Workers* workers,

@@ -215,12 +215,10 @@ public:
     void star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
     /// The same tets without the places. [step]
     void star(VertexId v, std::vector<TetId>& out) const;
-    /// The same tets without a copy: they lie in the cache, or in `walk` if there are very many.
-    /// They stay there until the next call for the same vertex or with the same `walk`. [parallel]
-    /// if no two threads ask for the same vertex.
-    std::span<const TetId> cached_star(VertexId v, StarWalk& walk) const;
-    /// The same with the neighbours.
-    Star cached_star_and_neighbours(VertexId v, StarWalk& walk) const;
+    /// The same tets and the neighbours without a copy: they lie in the cache, or in `walk` if there
+    /// are very many. They stay there until the next call for the same vertex or with the same
+    /// `walk`. [parallel] if no two threads ask for the same vertex.
+    Star cached_star(VertexId v, StarWalk& walk) const;
     /// The place in v's star of the tet that refused a move of v last. It is only a hint where to
     /// look first: it may be any number, and nothing may depend on it but the time. [parallel] as
     /// cached_star().
@@ -321,10 +319,8 @@ private:
     std::span<const TetId> own_star(VertexId v) const;
     void walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
     void walk_codes(VertexId v, std::vector<std::uint32_t>& out, TetIndex& places) const;
-    void find_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
-                         TetIndex& seen) const;
-    void find_neighbours_by_codes(VertexId v, std::span<const std::uint32_t> codes,
-                                  std::vector<VertexId>& out, TetIndex& seen) const;
+    void find_neighbours(VertexId v, std::span<const std::uint32_t> codes,
+                         std::vector<VertexId>& out, TetIndex& seen) const;
     void sort_by_birth(std::vector<VertexId>& list) const;
 
     LargeVector<Vertex> vertices_;

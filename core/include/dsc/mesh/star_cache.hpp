@@ -45,11 +45,8 @@ public:
         return {entry.ids + entry.tets, entry.neighbours};
     }
 
-    /// Stores the tets, which must lie outside the cache; no neighbours are known then. A very
-    /// large star is not stored.
-    void keep_tets(std::uint32_t v, std::span<const std::uint32_t> tets);
-    /// Stores the tets and the neighbours. Most vertices of the interface never need their
-    /// neighbours, so they get room only now.
+    /// Stores the tets and the neighbours, which must lie outside the cache. A very large star is
+    /// not stored.
     void keep(std::uint32_t v, std::span<const std::uint32_t> tets,
               std::span<const std::uint32_t> neighbours);
     /// The star has changed. Its memory is used again.
