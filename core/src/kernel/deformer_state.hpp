@@ -1,6 +1,7 @@
 #pragma once
 // The state of a Deformer, and the parts of a step, a refinement and a relabelling.
 
+#include <dsc/base/parallel_filter.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/validate.hpp>
 
@@ -30,7 +31,9 @@ struct Deformer::State {
     Workers* workers;  // null: one thread
 
     std::vector<TetId> step_changes;
-    std::vector<bool> noted;  // per tet: whether it is in step_changes
+    std::vector<std::uint8_t> noted;  // per tet: `mark` if it is in step_changes
+    std::uint8_t mark = 0;            // of this step; it may come again when no older one is left
+    ParallelFilter filter;
     std::vector<repair::Request> requests, last_requests;
     std::vector<repair::Outcome> outcomes;
     std::vector<VertexId> smoothed;  // vertices of a batch of requests
@@ -53,6 +56,7 @@ struct Deformer::State {
     void move_and_repair(const RepairPolicy& policy, StepReport& report);
     double make_moves();
     void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report);
+    std::size_t find_smoothings(std::size_t first);
     std::size_t smooth_from(std::size_t first, StepReport& report);
     bool plain_smoothing(const repair::Request& request) const;
     void record(std::uint32_t i, Outcome outcome, std::uint32_t date, StepReport& report);

@@ -22,14 +22,11 @@ bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
     return changed && !lost();
 }
 
-void RepairQueues::find_alive(Workers& workers) {
-    alive_.resize(dirty_.size());
-    workers.for_blocks(dirty_.size(), judged, [this](std::size_t begin, std::size_t end) {
+void RepairQueues::drop_dead(Workers* workers) {
+    filter_.keep_if(workers, dirty_, [this](std::size_t i, TetId t) {
         constexpr std::size_t ahead = 16;
-        for (std::size_t i = begin; i < end; ++i) {
-            if (i + ahead < end) complex_.prefetch(dirty_[i + ahead]);
-            alive_[i] = complex_.tet_alive(dirty_[i]) ? 1 : 0;
-        }
+        if (i + ahead < dirty_.size()) complex_.prefetch(dirty_[i + ahead]);
+        return complex_.tet_alive(t) && !lost();
     });
 }
 
@@ -46,17 +43,7 @@ std::span<const TetId> RepairQueues::next_round(Workers* workers) {
     const std::uint32_t previous_clock = last_clock_;
     last_clock_ = complex_.clock();
     complex_.take_changes(dirty_);
-    // Several threads look at the tets in advance; one thread looks at each when it comes to it.
-    const bool in_advance = workers != nullptr && workers->threads() > 1;
-    if (in_advance) find_alive(*workers);
-    std::size_t offered = 0;
-    constexpr std::size_t ahead = 16;
-    for (std::size_t i = 0; i < dirty_.size(); ++i) {
-        if (!in_advance && i + ahead < dirty_.size()) complex_.prefetch(dirty_[i + ahead]);
-        const bool alive = in_advance ? alive_[i] != 0 : complex_.tet_alive(dirty_[i]);
-        if (alive && !lost()) dirty_[offered++] = dirty_[i];
-    }
-    dirty_.resize(offered);
+    drop_dead(workers);
     // Of several failures of a slot in a round, the first one counts.
     seen_.clear();
     for (const Failure& failure : failed_now_) {
@@ -64,6 +51,8 @@ std::span<const TetId> RepairQueues::next_round(Workers* workers) {
     }
     failed_now_.clear();
     seen_.clear();
+    // Several threads judge in advance; one thread judges each failure when it comes to it.
+    const bool in_advance = workers != nullptr && workers->threads() > 1;
     if (in_advance) judge_all(previous_clock, *workers);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < failed_.size(); ++i) {

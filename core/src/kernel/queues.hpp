@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/base/parallel_filter.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/complex.hpp>
 
@@ -54,7 +55,7 @@ private:
         if (complex_.date(t) > previous_clock) return Verdict::drop;
         return out_of_date(t, failure.date) ? Verdict::wake : Verdict::keep;
     }
-    void find_alive(Workers& workers);
+    void drop_dead(Workers* workers);
     void judge_all(std::uint32_t previous_clock, Workers& workers);
 
     bool lost() { return drop_ != 0 && --drop_ == 0; }
@@ -72,10 +73,10 @@ private:
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;
     mesh::TetIndex seen_;
-    std::vector<std::uint8_t> alive_;  // per changed tet, and
-    std::vector<Verdict> verdicts_;    // per failure; for several threads
-    std::vector<Failure> memory_;      // audit only, per tet: its last failure, independent of the
-                                       // queues
+    std::vector<Verdict> verdicts_;  // per failure; for several threads
+    std::vector<Failure> memory_;    // audit only, per tet: its last failure, independent of the
+                                     // queues
+    ParallelFilter filter_;
     std::uint32_t last_clock_ = 0;
 };
 

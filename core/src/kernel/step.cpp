@@ -1,5 +1,7 @@
 // The parts of a step: motion and repair in turn, then topology (method.md, sections 5, 6 and 8).
 #include <algorithm>
+#include <atomic>
+#include <utility>
 
 #include "kernel/deformer_state.hpp"
 
@@ -11,7 +13,10 @@ void Deformer::State::begin_step(std::span<const VertexId> vertices,
     bench.limits.set_floor(policy.quality_floor.value_or(options.quality_floor));
     ++step;
     destinations.clear();
-    for (const TetId t : step_changes) noted[t] = false;
+    if (++mark == 0) {
+        std::fill(noted.begin(), noted.end(), 0);
+        mark = 1;
+    }
     step_changes.clear();
     last_requests.clear();
     outcomes.clear();
@@ -31,14 +36,13 @@ void Deformer::State::begin_step(std::span<const VertexId> vertices,
     }
 }
 
-// Collects for the topology stage what changed in this step, each tet once.
+// Collects for the topology stage what changed in this step, each tet once. No tet is twice in
+// `changed`.
 void Deformer::State::note_changes(std::span<const TetId> changed) {
-    noted.resize(std::max(noted.size(), complex.tet_slots()), false);
-    for (const TetId t : changed) {
-        if (noted[t]) continue;
-        noted[t] = true;
-        step_changes.push_back(t);
-    }
+    noted.resize(std::max(noted.size(), complex.tet_slots()), 0);
+    filter.append_if(workers, changed, step_changes, [this](std::size_t, TetId t) {
+        return std::exchange(noted[t], mark) != mark;
+    });
 }
 
 // The tet of a refused request waits until its neighbourhood changes.
@@ -96,15 +100,38 @@ bool Deformer::State::plain_smoothing(const repair::Request& request) const {
            complex.birth_date(t) == request.birth_date && mesh::has_vertex(complex.tet(t), v);
 }
 
-std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) {
+// How many requests from `first` on are certainly Laplacian smoothings; writes their vertices.
+std::size_t Deformer::State::find_smoothings(std::size_t first) {
     smoothed.clear();
-    constexpr std::size_t ahead = 16;
-    const bool fetch = complex.exceeds_caches();
-    for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i) {
-        if (fetch && i + ahead < requests.size() && requests[i + ahead].tet < complex.tet_slots())
-            complex.prefetch(requests[i + ahead].tet);
-        smoothed.push_back(requests[i].vertices[0]);
-    }
+    if (!plain_smoothing(requests[first])) return 0;
+    smoothed.resize(requests.size() - first);
+    std::atomic<std::size_t> count{smoothed.size()};
+    const auto look = [this, first, &count](std::size_t begin, std::size_t end) {
+        constexpr std::size_t ahead = 16;
+        const bool fetch = complex.exceeds_caches();
+        end = std::min(end, count.load(std::memory_order_relaxed));
+        for (std::size_t i = begin; i < end; ++i) {
+            if (fetch && i + ahead < end &&
+                requests[first + i + ahead].tet < complex.tet_slots())
+                complex.prefetch(requests[first + i + ahead].tet);
+            if (!plain_smoothing(requests[first + i])) {
+                std::size_t known = count.load(std::memory_order_relaxed);
+                while (i < known &&
+                       !count.compare_exchange_weak(known, i, std::memory_order_relaxed)) {
+                }
+                return;
+            }
+            smoothed[i] = requests[first + i].vertices[0];
+        }
+    };
+    constexpr std::size_t block = 4096;  // requests that a thread looks at
+    for_blocks(workers, smoothed.size(), block, look);
+    smoothed.resize(count);
+    return count;
+}
+
+std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) {
+    if (find_smoothings(first) == 0) return 0;
     bench.provide_memory();
     Smoothing action{*this, static_cast<std::uint32_t>(first), report};
     star_loop.run(smoothed, workers, action);

@@ -11,7 +11,8 @@ namespace {
 
 using RawFace = ViewMemory::Face;
 
-constexpr std::size_t walk_block = 1024;  // vertices
+constexpr std::size_t walk_block = 1024;     // vertices
+constexpr std::size_t measure_block = 4096;  // vertices or faces
 
 // Interface faces round v in which v has the least birth, each once, oriented out of the larger
 // label.
@@ -98,19 +99,23 @@ namespace {
 // Vertices, faces and what belongs to them, but not what depends on positions.
 void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMemory* memory) {
     ViewMemory::Arrays own;
-    auto& [blocks, index, counts] = memory != nullptr ? memory->arrays() : own;
+    auto& [keys, blocks, index, counts] = memory != nullptr ? memory->arrays() : own;
     const auto interface = c.interface_vertices();
-    view.vertex_ids.assign(interface.begin(), interface.end());
-    std::sort(view.vertex_ids.begin(), view.vertex_ids.end(),
-              [&c](mesh::VertexId a, mesh::VertexId b) { return c.birth(a) < c.birth(b); });
-    const std::size_t n = view.vertex_ids.size();
+    const std::size_t n = interface.size();
+    // The birth before the vertex, so that sorting does not look into the complex.
+    keys.resize(n);
+    for (std::size_t i = 0; i < n; ++i)
+        keys[i] = std::uint64_t{c.birth(interface[i])} << 32U | interface[i];
+    std::sort(keys.begin(), keys.end());
+    view.vertex_ids.resize(n);
     view.births.resize(n);
     view.movable.resize(n);
     if (index.size() < c.vertex_slots()) index.resize(c.vertex_slots());
     for (std::size_t i = 0; i < n; ++i) {
-        const mesh::VertexId v = view.vertex_ids[i];
+        const auto v = static_cast<mesh::VertexId>(keys[i]);
+        view.vertex_ids[i] = v;
         index[v] = static_cast<std::uint32_t>(i);
-        view.births[i] = c.birth(v);
+        view.births[i] = static_cast<std::uint32_t>(keys[i] >> 32U);
         view.movable[i] = c.movable(v) ? 1 : 0;
     }
     blocks.resize(std::max(blocks.size(), (n + walk_block - 1) / walk_block));
@@ -173,30 +178,39 @@ void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMe
 }
 
 // Positions, areas and normals of a connected view.
-void measure(const mesh::Complex& c, SurfaceView& view) {
+void measure(const mesh::Complex& c, SurfaceView& view, Workers* workers) {
     const std::size_t n = view.vertex_ids.size(), m = view.faces.size();
     view.positions.resize(n);
-    for (std::size_t i = 0; i < n; ++i) view.positions[i] = c.position(view.vertex_ids[i]);
+    for_blocks(workers, n, measure_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            view.positions[i] = c.position(view.vertex_ids[i]);
+    });
     view.previous_positions = view.positions;
     view.arrived.assign(n, 1);
     view.age.assign(n, 0);
     view.face_normals.resize(m);
     view.face_areas.resize(m);
-    view.normals.assign(n, Vec3::Zero());
-    for (std::size_t f = 0; f < m; ++f) {
-        const Vec3 &p = view.positions[view.faces[f][0]], &q = view.positions[view.faces[f][1]],
-                   &r = view.positions[view.faces[f][2]];
-        const Vec3 cross = (q - p).cross(r - p);
-        const double length = cross.norm();
-        view.face_areas[f] = 0.5 * length;
-        view.face_normals[f] = length > 0.0 ? Vec3(cross / length) : Vec3(Vec3::Zero());
-        for (const auto v : view.faces[f]) view.normals[v] += view.face_normals[f];
-    }
+    for_blocks(workers, m, measure_block, [&view](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const Vec3 &p = view.positions[view.faces[f][0]], &q = view.positions[view.faces[f][1]],
+                       &r = view.positions[view.faces[f][2]];
+            const Vec3 cross = (q - p).cross(r - p);
+            const double length = cross.norm();
+            view.face_areas[f] = 0.5 * length;
+            view.face_normals[f] = length > 0.0 ? Vec3(cross / length) : Vec3(Vec3::Zero());
+        }
+    });
+    view.normals.resize(n);
+    for_blocks(workers, n, measure_block, [&view](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Vec3 sum = Vec3::Zero();
+            for (std::uint32_t k = view.face_offsets[i]; k < view.face_offsets[i + 1]; ++k)
+                sum += view.face_normals[view.vertex_faces[k]];
+            const double length = sum.norm();
+            view.normals[i] = length > 1e-8 ? Vec3(sum / length) : Vec3(Vec3::Zero());
+        }
+    });
     view.mean_edge = mean_edge(view.positions, view.faces);
-    for (Vec3& normal : view.normals) {
-        const double length = normal.norm();
-        normal = length > 1e-8 ? Vec3(normal / length) : Vec3(Vec3::Zero());
-    }
 }
 
 }  // namespace
@@ -207,7 +221,7 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
     } else {
         connect(c, view, workers, memory);
     }
-    measure(c, view);
+    measure(c, view, workers);
 }
 
 }  // namespace dsc::surface

@@ -117,6 +117,7 @@ public:
             mesh::StarWalk walk;
             std::vector<Face> faces;  ///< that the vertices of the block lead
         };
+        std::vector<std::uint64_t> keys;  ///< birth and number of each interface vertex
         std::vector<Block> blocks;
         std::vector<std::uint32_t> index;   ///< view index per complex vertex
         std::vector<std::uint32_t> counts;  ///< number of faces that each view vertex leads
