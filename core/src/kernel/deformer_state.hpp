@@ -31,8 +31,7 @@ struct Deformer::State {
     Workers* workers;  // null: one thread
 
     std::vector<TetId> step_changes;
-    std::vector<std::uint8_t> noted;  // per tet: `mark` if it is in step_changes
-    std::uint8_t mark = 0;            // of this step; it may come again when no older one is left
+    std::vector<std::uint64_t> noted;  // a bit per tet: whether it is in step_changes
     ParallelFilter filter;
     std::vector<repair::Request> requests, last_requests;
     std::vector<repair::Outcome> outcomes;
@@ -57,10 +56,12 @@ struct Deformer::State {
     double make_moves();
     void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report);
     std::size_t find_smoothings(std::size_t first);
+    void fetch_ahead(std::size_t i) const;
     std::size_t smooth_from(std::size_t first, StepReport& report);
     bool plain_smoothing(const repair::Request& request) const;
     void record(std::uint32_t i, Outcome outcome, std::uint32_t date, StepReport& report);
     void note_changes(std::span<const TetId> changed);
+    void forget_changes();
     void change_topology(const RepairPolicy& policy, StepReport& report);
     void sum_up(StepReport& report) const;
 

@@ -149,20 +149,25 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     return true;
 }
 
-StarLoop::Offer StarLoop::farthest_behind() const {
+StarLoop::Offer StarLoop::farthest_behind(const Thread& thread) const {
     const std::size_t count = most_blocks >> coarser_;
     std::array<std::uint32_t, most_blocks> turns;
     for (std::size_t b = 0; b < count; ++b)
         turns[b] = blocks_[b].turn.load(std::memory_order_acquire);
     Offer offer;
     std::uint32_t least = no_turn;
+    bool preferred = false;
     for (std::size_t b = 0; b < count; ++b) {
         if (turns[b] == no_turn) continue;
         offer.finished = false;
-        if (turns[b] >= least || blocks_[b].taken.load(std::memory_order_relaxed)) continue;
+        const bool prefers = thread.prefers(b, count);
+        if ((prefers == preferred ? turns[b] >= least : preferred) ||
+            blocks_[b].taken.load(std::memory_order_relaxed))
+            continue;
         const std::uint64_t wait = blocks_[b].waits_for.load(std::memory_order_relaxed);
         if (wait != no_wait && turns[wait & 0xffU] <= wait >> 8U) continue;
         least = turns[b];
+        preferred = prefers;
         offer.block = b;
     }
     return offer;

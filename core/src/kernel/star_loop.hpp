@@ -5,7 +5,7 @@
 // The vertices are divided into blocks of space. A thread processes the vertices of a block in the
 // order of the list, until it comes to a vertex with a neighbour in another block that is earlier
 // in the list and has not been processed. Then the thread continues with the block that is farthest
-// behind. So each vertex sees the star that it would see in serial order, and no two threads use
+// behind, in its own part of space if possible. So each vertex sees the star that it would see in serial order, and no two threads use
 // the same tet at the same time. The date of a move is that of its turn in the list, so it does not
 // depend on the other moves. The change list and the action's books follow in the order of the
 // list.
@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include <dsc/base/spin.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/complex.hpp>
 #include <dsc/mesh/star_trial.hpp>
@@ -64,8 +65,11 @@ public:
             Workers& workers;
             ~Forget() { loop.forget(vertices, workers); }
         } const forget{*this, vertices, *workers};
-        const auto body = [&](std::size_t, std::size_t) { work(vertices, action); };
-        workers->for_blocks(workers->threads(), 1, body);
+        const std::size_t threads = workers->threads();
+        const auto body = [&](std::size_t thread, std::size_t) {
+            work(vertices, action, {thread, threads});
+        };
+        workers->for_blocks(threads, 1, body);
         complex_.advance_clock(date_of(vertices.size()) - 1);
         settle(action);
     }
@@ -111,6 +115,14 @@ private:
         return std::uint64_t{turn} << 8U | block;
     }
 
+    // A thread prefers the blocks in its part of space, whose data is near its core.
+    struct Thread {
+        std::size_t number, of;
+        bool prefers(std::size_t block, std::size_t blocks) const {
+            return block * of / blocks == number;
+        }
+    };
+
     // What a thread that looks for work finds.
     struct Offer {
         std::size_t block = most_blocks;  // most_blocks: none that is not taken and does not wait
@@ -129,7 +141,7 @@ private:
     void forget(std::span<const mesh::VertexId> vertices, Workers& workers);
     bool is_balanced() const;
     std::uint8_t leaf_at(const Vec3& place) const;
-    Offer farthest_behind() const;
+    Offer farthest_behind(const Thread& thread) const;
 
     // What is known of a vertex. Only leaf_in() changes it while threads work.
     std::uint8_t known_of(mesh::VertexId v) {
@@ -195,12 +207,15 @@ private:
     // Until all items have been processed. The earliest of the items that are left can always be
     // processed, so threads do not wait for each other without end, and one thread is enough.
     template <class Action>
-    void work(std::span<const mesh::VertexId> vertices, Action& action) {
-        for (Offer offer = farthest_behind(); !offer.finished; offer = farthest_behind()) {
-            if (offer.block == most_blocks) {
-                std::this_thread::yield();
-                continue;
-            }
+    void work(std::span<const mesh::VertexId> vertices, Action& action, const Thread& thread) {
+        Offer offer;
+        const auto found = [&] {
+            offer = farthest_behind(thread);
+            return offer.finished || offer.block != most_blocks;
+        };
+        while (true) {
+            while (!spin_until(found)) std::this_thread::yield();
+            if (offer.finished) return;
             Block& block = blocks_[offer.block];
             if (block.take()) run_block(block, vertices, action);
         }

@@ -13,11 +13,7 @@ void Deformer::State::begin_step(std::span<const VertexId> vertices,
     bench.limits.set_floor(policy.quality_floor.value_or(options.quality_floor));
     ++step;
     destinations.clear();
-    if (++mark == 0) {
-        std::fill(noted.begin(), noted.end(), 0);
-        mark = 1;
-    }
-    step_changes.clear();
+    forget_changes();
     last_requests.clear();
     outcomes.clear();
     bench.sums = {};
@@ -36,13 +32,27 @@ void Deformer::State::begin_step(std::span<const VertexId> vertices,
     }
 }
 
-// Collects for the topology stage what changed in this step, each tet once. No tet is twice in
-// `changed`.
+// Collects for the topology stage what changed in this step, each tet once.
 void Deformer::State::note_changes(std::span<const TetId> changed) {
-    noted.resize(std::max(noted.size(), complex.tet_slots()), 0);
-    filter.append_if(workers, changed, step_changes, [this](std::size_t, TetId t) {
-        return std::exchange(noted[t], mark) != mark;
+    noted.resize(std::max(noted.size(), complex.tet_slots() / 64 + 1), 0);
+    const bool alone = workers == nullptr || workers->threads() < 2;
+    filter.append_if(workers, changed, step_changes, [this, alone](std::size_t, TetId t) {
+        const std::uint64_t bit = std::uint64_t{1} << t % 64;
+        std::uint64_t& word = noted[t / 64];
+        const std::uint64_t before =
+            alone ? std::exchange(word, word | bit)
+                  : std::atomic_ref(word).fetch_or(bit, std::memory_order_relaxed);
+        return (before & bit) == 0;
     });
+}
+
+void Deformer::State::forget_changes() {
+    constexpr std::size_t block = 4096;
+    for_blocks(workers, step_changes.size(), block, [this](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            std::atomic_ref(noted[step_changes[i] / 64]).store(0, std::memory_order_relaxed);
+    });
+    step_changes.clear();
 }
 
 // The tet of a refused request waits until its neighbourhood changes.
@@ -138,6 +148,21 @@ std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) 
     return smoothed.size();
 }
 
+// Asks the memory for what the next requests look at.
+void Deformer::State::fetch_ahead(std::size_t i) const {
+    constexpr std::size_t near = 8, far = 24;
+    if (!complex.exceeds_caches()) return;
+    const auto tet_at = [this](std::size_t at) {
+        // All requests for one tet usually follow each other.
+        if (at >= requests.size() || requests[at].tet == requests[at - 1].tet) return mesh::none;
+        return requests[at].tet < complex.tet_slots() ? requests[at].tet : mesh::none;
+    };
+    if (const TetId t = tet_at(i + far); t != mesh::none) complex.prefetch_with_codes(t);
+    if (const TetId t = tet_at(i + near);
+        t != mesh::none && complex.quality(t) < requests[i + near].only_below)
+        complex.prefetch_round(t);
+}
+
 void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool settled,
                              StepReport& report) {
     const auto dirty = queues.next_round(workers);
@@ -154,6 +179,7 @@ void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool se
         const std::size_t done = smooth_from(i, report);
         i += done;
         if (done > 0) continue;
+        fetch_ahead(i);
         const Outcome outcome = execute(bench, requests[i]);
         record(static_cast<std::uint32_t>(i), outcome, complex.clock(), report);
         ++i;

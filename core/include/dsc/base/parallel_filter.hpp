@@ -48,6 +48,12 @@ public:
     template <class T, class Keep>
     void append_if(Workers* workers, std::span<const T> from, std::vector<T>& to,
                    const Keep& keep) {
+        if (workers == nullptr || workers->threads() < 2) {
+            for (std::size_t i = 0; i < from.size(); ++i) {
+                if (keep(i, from[i])) to.push_back(from[i]);
+            }
+            return;
+        }
         for (std::size_t start = 0; start < from.size(); start += part) {
             append_part(workers, from.subspan(start, std::min(part, from.size() - start)), to,
                         [&keep, start](std::size_t i, T entry) { return keep(start + i, entry); });

@@ -199,6 +199,18 @@ public:
             if (v != none) __builtin_prefetch(&vertices_[v]);
         }
     }
+    /// The same for a tet with what lies across its faces, and then for everything round a tet that
+    /// is there already.
+    void prefetch_with_codes(TetId t) const {
+        __builtin_prefetch(&tets_[t]);
+        __builtin_prefetch(&neighbours_[t]);
+    }
+    void prefetch_round(TetId t) const {
+        prefetch_vertices(t);
+        for (const std::uint32_t code : neighbours_[t]) {
+            if (code != none) prefetch_with_codes(neighbour_tet(code));
+        }
+    }
 
     /// The same for a star: first where it is stored, then its ids, then its tets and neighbours as
     /// far as they are stored. Each call needs what the one before has fetched.
