@@ -1,7 +1,6 @@
 #pragma once
 // The state of a Deformer, and the parts of a step, a refinement and a relabelling.
 
-#include <dsc/base/parallel_filter.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/validate.hpp>
 
@@ -30,9 +29,6 @@ struct Deformer::State {
     VertexFields fields;
     Workers* workers;  // null: one thread
 
-    std::vector<TetId> step_changes;
-    std::vector<std::uint64_t> noted;  // a bit per tet: whether it is in step_changes
-    ParallelFilter filter;
     std::vector<repair::Request> requests, last_requests;
     std::vector<repair::Outcome> outcomes;
     std::vector<VertexId> smoothed;  // vertices of a batch of requests
@@ -60,8 +56,6 @@ struct Deformer::State {
     std::size_t smooth_from(std::size_t first, StepReport& report);
     bool plain_smoothing(const repair::Request& request) const;
     void record(std::uint32_t i, Outcome outcome, std::uint32_t date, StepReport& report);
-    void note_changes(std::span<const TetId> changed);
-    void forget_changes();
     void change_topology(const RepairPolicy& policy, StepReport& report);
     void sum_up(StepReport& report) const;
 

@@ -23,11 +23,9 @@ bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
 }
 
 void RepairQueues::drop_dead(Workers* workers) {
-    filter_.keep_if(workers, dirty_, [this](std::size_t i, TetId t) {
-        constexpr std::size_t ahead = 16;
-        if (i + ahead < dirty_.size()) complex_.prefetch(dirty_[i + ahead]);
-        return complex_.tet_alive(t) && !lost();
-    });
+    filter_.keep_if(
+        workers, dirty_, [this](TetId t) { return complex_.tet_alive(t) && !lost(); },
+        [this](TetId t) { complex_.prefetch(t); });
 }
 
 void RepairQueues::judge_all(std::uint32_t previous_clock, Workers& workers) {
@@ -44,6 +42,7 @@ std::span<const TetId> RepairQueues::next_round(Workers* workers) {
     last_clock_ = complex_.clock();
     complex_.take_changes(dirty_);
     drop_dead(workers);
+    changed_ = dirty_.size();
     // Of several failures of a slot in a round, the first one counts.
     seen_.clear();
     for (const Failure& failure : failed_now_) {

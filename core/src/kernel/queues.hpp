@@ -28,6 +28,8 @@ public:
     /// whose failure is out of date. Throws GeometryError if the audit finds a missed tet.
     /// `workers`: null for one thread. [step]
     std::span<const TetId> next_round(Workers* workers);
+    /// Those tets of the round whose failure was out of date.
+    std::span<const TetId> woken() const { return std::span(dirty_).subspan(changed_); }
     /// Remembers that a request on this tet was refused in this round, when the change clock was
     /// `date`. `birth_date` is that of the tet.
     void fail(TetId t, std::uint32_t birth_date, std::uint32_t date);
@@ -70,6 +72,7 @@ private:
     bool audit_;
     std::uint64_t drop_;
     std::vector<TetId> dirty_;
+    std::size_t changed_ = 0;  // how many of them have changed; they come first
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;
     mesh::TetIndex seen_;

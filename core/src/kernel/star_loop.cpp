@@ -137,7 +137,8 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     }
     for (Block& block : blocks_) {
         block.items.clear();
-        block.changed.clear();
+        block.changes.changed.clear();
+        block.changes.watched.clear();
         block.next = block.settled = block.listed = 0;
         block.prepared = false;
         block.waits_for = no_wait;

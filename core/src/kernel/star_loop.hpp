@@ -100,8 +100,8 @@ private:
         std::size_t next = 0;
         bool prepared = false;                // scratch has the star and the neighbours of the next
         std::vector<Item> items;              // in the order of their turns
-        std::vector<mesh::TetId> changed;     // by the moves, in their order
-        std::size_t settled = 0, listed = 0;  // how many of both
+        mesh::ChangeLists changes;            // by the moves, in their order
+        std::size_t settled = 0, listed = 0;  // how many items, and changed tets
         StarScratch scratch;
 
         bool take() { return !taken.exchange(true, std::memory_order_acquire); }
@@ -266,10 +266,12 @@ private:
         for (std::uint32_t turn = 0; turn < block_of_.size(); ++turn) {
             Block& block = blocks_[block_of_[turn]];
             const Item& item = block.items[block.settled++];
-            complex_.add_changes(std::span(block.changed).subspan(block.listed, item.changes));
+            complex_.add_changes(
+                std::span(block.changes.changed).subspan(block.listed, item.changes));
             block.listed += item.changes;
             action.settle(turn, date_of(turn));
         }
+        for (const Block& block : blocks_) complex_.add_watched(block.changes.watched);
     }
 
     template <class Action>
@@ -279,10 +281,10 @@ private:
         prepare(block, v);
         if (!action.attempt(item.turn, scratch, date_of(item.turn))) return;
         complex_.place(v, scratch.place, scratch.star.tets, scratch.qualities);
-        const std::size_t before = block.changed.size();
-        complex_.date_move(v, scratch.star, date_of(item.turn), block.changed,
+        const std::size_t before = block.changes.changed.size();
+        complex_.date_move(v, scratch.star, date_of(item.turn), block.changes,
                            [this](mesh::VertexId w) { return is_inner(w); });
-        item.changes = static_cast<std::uint32_t>(block.changed.size() - before);
+        item.changes = static_cast<std::uint32_t>(block.changes.changed.size() - before);
     }
 
     mesh::Complex& complex_;

@@ -13,7 +13,8 @@ void Deformer::State::begin_step(std::span<const VertexId> vertices,
     bench.limits.set_floor(policy.quality_floor.value_or(options.quality_floor));
     ++step;
     destinations.clear();
-    forget_changes();
+    // For the topology stage.
+    complex.start_watch();
     last_requests.clear();
     outcomes.clear();
     bench.sums = {};
@@ -30,29 +31,6 @@ void Deformer::State::begin_step(std::span<const VertexId> vertices,
         if (inside != wanted) ++report.clamped;
         destinations.send(v, inside);
     }
-}
-
-// Collects for the topology stage what changed in this step, each tet once.
-void Deformer::State::note_changes(std::span<const TetId> changed) {
-    noted.resize(std::max(noted.size(), complex.tet_slots() / 64 + 1), 0);
-    const bool alone = workers == nullptr || workers->threads() < 2;
-    filter.append_if(workers, changed, step_changes, [this, alone](std::size_t, TetId t) {
-        const std::uint64_t bit = std::uint64_t{1} << t % 64;
-        std::uint64_t& word = noted[t / 64];
-        const std::uint64_t before =
-            alone ? std::exchange(word, word | bit)
-                  : std::atomic_ref(word).fetch_or(bit, std::memory_order_relaxed);
-        return (before & bit) == 0;
-    });
-}
-
-void Deformer::State::forget_changes() {
-    constexpr std::size_t block = 4096;
-    for_blocks(workers, step_changes.size(), block, [this](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            std::atomic_ref(noted[step_changes[i] / 64]).store(0, std::memory_order_relaxed);
-    });
-    step_changes.clear();
 }
 
 // The tet of a refused request waits until its neighbourhood changes.
@@ -166,7 +144,7 @@ void Deformer::State::fetch_ahead(std::size_t i) const {
 void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool settled,
                              StepReport& report) {
     const auto dirty = queues.next_round(workers);
-    note_changes(dirty);
+    complex.watch(queues.woken());
     requests.clear();
     policy.propose(
         repair::RepairRound{complex, dirty, destinations.blocked(), last_requests, outcomes, length,
@@ -245,8 +223,7 @@ void Deformer::State::move_and_repair(const RepairPolicy& policy, StepReport& re
 
 void Deformer::State::change_topology(const RepairPolicy& policy, StepReport& report) {
     const Timed timed(report.repair_time);
-    note_changes(complex.changes());
-    topology.run(step, step_changes, policy.topology, policy.select, report.events, workers);
+    topology.run(step, complex.watched(), policy.topology, policy.select, report.events, workers);
     if (policy.topology.thickness > 0.0) {
         topology.remove_small_components(step, destinations.near_collapses(),
                                          policy.topology.min_component, report.events);

@@ -52,15 +52,25 @@ TetId Complex::allocate_tet() {
 }
 
 void Complex::touch(TetId t) {
-    if (tets_[t].date <= taken_clock_) changes_.push_back(t);
-    tets_[t].date = clock_;
+    note(t, clock_, lists_);
     for (const VertexId v : tets_[t].v) vertices_[v].date = clock_;
 }
 
 void Complex::take_changes(std::vector<TetId>& out) {
     out.clear();
-    std::swap(out, changes_);
+    std::swap(out, lists_.changed);
     taken_clock_ = clock_;
+}
+
+void Complex::start_watch() {
+    lists_.watched = lists_.changed;
+    watched_since_ = taken_clock_ + 1;
+}
+
+void Complex::watch(std::span<const TetId> tets) {
+    for (const TetId t : tets) {
+        if (tets_[t].date < watched_since_) lists_.watched.push_back(t);
+    }
 }
 
 void Complex::set_phases(VertexId v, unsigned phases) {
@@ -122,10 +132,7 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
         for (const TetId t : star) touch(t);
         return;
     }
-    for (const TetId t : star) {
-        if (tets_[t].date <= taken_clock_) changes_.push_back(t);
-        tets_[t].date = clock_;
-    }
+    for (const TetId t : star) note(t, clock_, lists_);
     vertices_[v].date = clock_;
     for (const VertexId w : neighbours) vertices_[w].date = clock_;
 }
@@ -273,7 +280,7 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets
     c.tets_.resize(tets.size());
     c.neighbours_ = std::move(neighbours);
     const std::size_t n = c.tets_.size();
-    c.changes_.reserve(n);
+    c.lists_.changed.reserve(n);
     c.clock_ = 1;
     for_blocks(workers, n, assembled_tets, [&c, &tets, labels](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {

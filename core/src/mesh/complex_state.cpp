@@ -12,7 +12,7 @@ void Complex::save(StateWriter& out) const {
     out.list(free_vertices_);
     out.list(free_tets_);
     out.list(interface_);
-    out.list(changes_);
+    out.list(lists_.changed);
     out.value(taken_clock_);
     out.value(clock_);
     out.value(next_birth_);
@@ -35,7 +35,7 @@ Complex Complex::load(StateReader& in) {
     in.list(c.free_vertices_);
     in.list(c.free_tets_);
     in.list(c.interface_);
-    in.list(c.changes_);
+    in.list(c.lists_.changed);
     in.value(c.taken_clock_);
     in.value(c.clock_);
     in.value(c.next_birth_);

@@ -12,6 +12,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <dsc/base/large_vector.hpp>
@@ -121,6 +122,11 @@ struct StarWalk {
     TetIndex places;
     std::vector<TetId> tets;
     std::vector<VertexId> neighbours;
+};
+
+/// Tets that have changed since a time; see Complex::changes() and Complex::watched().
+struct ChangeLists {
+    std::vector<TetId> changed, watched;
 };
 
 /// See the head of the file.
@@ -265,17 +271,21 @@ public:
     }
     /// The parts of move(), for several vertices. place() and date_move() may run in parallel if no
     /// other thread uses the star meanwhile. The dates are above clock(), and of two moves with a
-    /// common tet the later one comes later; `changed` receives the tets that are not on the change
-    /// list yet [parallel]. Then add_changes() adds these to the list, in the order of the moves,
-    /// and advance_clock() goes to a time that is not before the last move [step].
+    /// common tet the later one comes later; `changes` receives the tets that are not on the lists
+    /// yet [parallel]. Then add_changes() adds these to the change list, in the order of the moves,
+    /// add_watched() adds them to the list of watched tets, and advance_clock() goes to a time that
+    /// is not before the last move [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
     /// `alone(w)`: whether no other thread can date a move round neighbour w meanwhile.
     template <class Alone>
-    void date_move(VertexId v, const Star& star, std::uint32_t date, std::vector<TetId>& changed,
+    void date_move(VertexId v, const Star& star, std::uint32_t date, ChangeLists& changes,
                    const Alone& alone);
     void add_changes(std::span<const TetId> tets) {
-        changes_.insert(changes_.end(), tets.begin(), tets.end());
+        lists_.changed.insert(lists_.changed.end(), tets.begin(), tets.end());
+    }
+    void add_watched(std::span<const TetId> tets) {
+        lists_.watched.insert(lists_.watched.end(), tets.begin(), tets.end());
     }
     void advance_clock(std::uint32_t time) { clock_ = time; }
     /// Gives tets another label. [step]
@@ -287,9 +297,17 @@ public:
     // ---- change tracking ------------------------------------------------------------------------
     /// Tets made, moved or relabelled since the last call of take_changes(), each once; may include
     /// dead ids.
-    std::span<const TetId> changes() const { return changes_; }
+    std::span<const TetId> changes() const { return lists_.changed; }
     /// Moves the change list to `out` and starts a new one.
     void take_changes(std::vector<TetId>& out);
+    /// Starts a list that stays when the change list is taken: the tets that are on the change list
+    /// now, and those that change later, each once. The list is not saved. [step]
+    void start_watch();
+    /// Adds those of the tets that have not changed since then, also if they were added before.
+    /// [step]
+    void watch(std::span<const TetId> tets);
+    /// In unspecified order; may include dead ids. Empty before start_watch().
+    std::span<const TetId> watched() const { return lists_.watched; }
 
     // ---- making and copying ---------------------------------------------------------------------
     /// Builds a complex from arrays that are already positive, conforming and box-filling (for
@@ -324,6 +342,12 @@ private:
     TetId allocate_tet();
     void note_change(VertexId v, std::span<const TetId> star);
     void touch(TetId t);
+    void note(TetId t, std::uint32_t date, ChangeLists& lists) {
+        const std::uint32_t before = std::exchange(tets_[t].date, date);
+        if (before > taken_clock_) return;
+        lists.changed.push_back(t);
+        if (before < watched_since_) lists.watched.push_back(t);
+    }
     bool find_relabelled(const Edit& edit);
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
     void refresh_phases(VertexId v);
@@ -342,7 +366,7 @@ private:
     std::vector<VertexId> free_vertices_;
     std::vector<TetId> free_tets_;
     std::vector<VertexId> interface_;
-    std::vector<TetId> changes_;
+    ChangeLists lists_;
     std::vector<TetId> last_added_;
     struct CavityLabels {
         VertexId vertex;
@@ -354,6 +378,7 @@ private:
     mutable StarCache stars_;        // of the vertices that were asked for
     std::uint32_t taken_clock_ = 0;  // clock when the change list was last taken; tets of a later
                                      // date are in the list
+    std::uint32_t watched_since_ = 0;  // tets of this date or a later one are watched
     std::uint32_t clock_ = 0;
     std::uint32_t next_birth_ = 0;
     Box3 box_;
@@ -370,11 +395,8 @@ private:
 
 template <class Alone>
 void Complex::date_move(VertexId v, const Star& star, std::uint32_t date,
-                        std::vector<TetId>& changed, const Alone& alone) {
-    for (const TetId t : star.tets) {
-        if (tets_[t].date <= taken_clock_) changed.push_back(t);
-        tets_[t].date = date;
-    }
+                        ChangeLists& changes, const Alone& alone) {
+    for (const TetId t : star.tets) note(t, date, changes);
     const auto raise = [this, date, &alone](VertexId w) {
         std::uint32_t& own = vertices_[w].date;
         if (alone(w)) {
