@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace dsc::kernel {
 namespace {
@@ -11,7 +13,13 @@ namespace {
 constexpr std::size_t least_block = 256;  // items, on average
 constexpr std::size_t most_samples = 1024;
 constexpr unsigned most_loops = 64;      // with the same planes, because vertices move on
-constexpr std::size_t looked_up = 4096;  // items whose block a thread finds at a time
+constexpr std::size_t part = 4096;   // of the list, in items
+
+// Replaces the counts of a part by those before it.
+template <class Counts>
+void add_up(Counts& count, Counts& total) {
+    for (std::size_t i = 0; i < count.size(); ++i) total[i] += std::exchange(count[i], total[i]);
+}
 
 }  // namespace
 
@@ -61,37 +69,92 @@ std::uint8_t StarLoop::leaf_of_new(mesh::VertexId v) const {
     return leaf_at(complex_.position(v));
 }
 
-// Writes block_of_, and what is known of the vertices.
-void StarLoop::find_blocks(std::span<const mesh::VertexId> vertices, Workers& workers) {
-    block_of_.resize(vertices.size());
-    workers.for_blocks(vertices.size(), looked_up, [&](std::size_t begin, std::size_t end) {
+// Writes leaf_of_, and what is known of the vertices.
+void StarLoop::find_leaves(std::span<const mesh::VertexId> vertices, Workers& workers) {
+    leaf_of_.resize(vertices.size());
+    std::atomic<bool> some_new{false};
+    workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
             const mesh::VertexId v = vertices[turn];
             const std::uint8_t leaf = known_of(v) & leaf_bits;
-            block_of_[turn] = leaf;
+            leaf_of_[turn] = leaf;
+            if (leaf == no_leaf) some_new.store(true, std::memory_order_relaxed);
             const auto known = static_cast<std::uint8_t>(leaf | (stays_inner(v) ? inner_bit : 0));
             std::atomic_ref(known_of_vertex_[v]).store(known, std::memory_order_relaxed);
         }
     });
+    if (!some_new) return;
     for (std::size_t turn = 0; turn < vertices.size(); ++turn) {
-        const mesh::VertexId v = vertices[turn];
-        if (block_of_[turn] == no_leaf) block_of_[turn] = known_of_vertex_[v] = leaf_of_new(v);
-        block_of_[turn] = static_cast<std::uint8_t>(block_of_[turn] >> coarser_);
+        if (leaf_of_[turn] != no_leaf) continue;
+        leaf_of_[turn] = known_of_vertex_[vertices[turn]] = leaf_of_new(vertices[turn]);
     }
 }
 
 // Whether no block has many times the average number of items.
 bool StarLoop::is_balanced() const {
-    std::array<std::size_t, most_blocks> count{};
-    for (const std::uint8_t block : block_of_) ++count[block];
+    BlockCounts count{};
+    for (const std::uint8_t leaf : leaf_of_) ++count[leaf >> coarser_];
     return *std::max_element(count.begin(), count.end()) <=
-           3 * block_of_.size() / (most_blocks >> coarser_) + least_block;
+           3 * leaf_of_.size() / (most_blocks >> coarser_) + least_block;
+}
+
+// The items of the blocks, in the order of their turns.
+void StarLoop::fill_blocks(Workers& workers) {
+    items_before_.assign((leaf_of_.size() + part - 1) / part, BlockCounts{});
+    workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
+        BlockCounts count{};
+        for (std::size_t turn = begin; turn < end; ++turn) ++count[leaf_of_[turn] >> coarser_];
+        items_before_[begin / part] = count;
+    });
+    BlockCounts total{};
+    for (BlockCounts& count : items_before_) add_up(count, total);
+    for (std::size_t b = 0; b < most_blocks; ++b) blocks_[b].items.resize(total[b]);
+    workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
+        BlockCounts at = items_before_[begin / part];
+        for (std::size_t turn = begin; turn < end; ++turn) {
+            const std::size_t b = leaf_of_[turn] >> coarser_;
+            blocks_[b].items[at[b]++] = {static_cast<std::uint32_t>(turn)};
+        }
+    });
+}
+
+// Adds the changes of the blocks to the lists of the complex, in the order of the turns.
+void StarLoop::list_changes(Workers& workers) {
+    changes_before_.assign(items_before_.size(), BlockCounts{});
+    workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
+        BlockCounts at = items_before_[begin / part], count{};
+        for (std::size_t turn = begin; turn < end; ++turn) {
+            const std::size_t b = leaf_of_[turn] >> coarser_;
+            count[b] += blocks_[b].items[at[b]++].changes;
+        }
+        changes_before_[begin / part] = count;
+    });
+    listed_before_.clear();
+    std::size_t listed = 0;
+    BlockCounts total{};
+    for (BlockCounts& count : changes_before_) {
+        listed_before_.push_back(listed);
+        listed += std::accumulate(count.begin(), count.end(), std::size_t{0});
+        add_up(count, total);
+    }
+    const std::span<mesh::TetId> list = complex_.add_changes(listed);
+    workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
+        BlockCounts item = items_before_[begin / part], change = changes_before_[begin / part];
+        mesh::TetId* to = list.data() + listed_before_[begin / part];
+        for (std::size_t turn = begin; turn < end; ++turn) {
+            const std::size_t b = leaf_of_[turn] >> coarser_;
+            const std::size_t count = blocks_[b].items[item[b]++].changes;
+            to = std::copy_n(blocks_[b].changes.changed.data() + change[b], count, to);
+            change[b] += count;
+        }
+    });
+    for (const Block& block : blocks_) complex_.add_watched(block.changes.watched);
 }
 
 // Writes turn_of_vertex_; false if a vertex occurs twice, and so has two turns.
 bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& workers) {
     std::atomic<bool> twice{false};
-    workers.for_blocks(vertices.size(), looked_up, [&](std::size_t begin, std::size_t end) {
+    workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
             const std::atomic_ref known(turn_of_vertex_[vertices[turn]]);
             if (known.exchange(static_cast<std::uint32_t>(turn), std::memory_order_relaxed) !=
@@ -103,7 +166,7 @@ bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& wor
 }
 
 void StarLoop::forget(std::span<const mesh::VertexId> vertices, Workers& workers) {
-    workers.for_blocks(vertices.size(), looked_up, [&](std::size_t begin, std::size_t end) {
+    workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (const mesh::VertexId v : vertices.subspan(begin, end - begin)) {
             std::atomic_ref(turn_of_vertex_[v]).store(no_turn, std::memory_order_relaxed);
             const std::atomic_ref known(known_of_vertex_[v]);
@@ -130,23 +193,20 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     }
     const bool is_new = loops_++ % most_loops == 0;
     if (is_new) make_planes(vertices);
-    find_blocks(vertices, workers);
+    find_leaves(vertices, workers);
     if (!is_new && !is_balanced()) {
         make_planes(vertices);
-        find_blocks(vertices, workers);
+        find_leaves(vertices, workers);
     }
+    fill_blocks(workers);
     for (Block& block : blocks_) {
-        block.items.clear();
         block.changes.changed.clear();
         block.changes.watched.clear();
-        block.next = block.settled = block.listed = 0;
+        block.next = 0;
         block.prepared = false;
         block.waits_for = no_wait;
-    }
-    for (std::uint32_t turn = 0; turn < vertices.size(); ++turn)
-        blocks_[block_of_[turn]].items.push_back({turn});
-    for (Block& block : blocks_)
         block.turn = block.items.empty() ? no_turn : block.items.front().turn;
+    }
     return true;
 }
 

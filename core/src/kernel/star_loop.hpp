@@ -71,7 +71,7 @@ public:
         };
         workers->for_blocks(threads, 1, body);
         complex_.advance_clock(date_of(vertices.size()) - 1);
-        settle(action);
+        settle(action, *workers);
     }
 
 private:
@@ -97,11 +97,10 @@ private:
         std::atomic<std::uint32_t> turn{0};  // of the next item; no_turn after the last one
         std::atomic<bool> taken{false};
         std::atomic<std::uint64_t> waits_for{no_wait};  // wait_for()
-        std::size_t next = 0;
+        std::size_t next = 0;                // item
         bool prepared = false;                // scratch has the star and the neighbours of the next
-        std::vector<Item> items;              // in the order of their turns
-        mesh::ChangeLists changes;            // by the moves, in their order
-        std::size_t settled = 0, listed = 0;  // how many items, and changed tets
+        std::vector<Item> items;    // in the order of their turns
+        mesh::ChangeLists changes;  // by the moves, in their order
         StarScratch scratch;
 
         bool take() { return !taken.exchange(true, std::memory_order_acquire); }
@@ -114,6 +113,10 @@ private:
     static std::uint64_t wait_for(std::uint8_t block, std::uint32_t turn) {
         return std::uint64_t{turn} << 8U | block;
     }
+
+    // Of a part of the list: how many of its items are in each block, or how many tets these
+    // changed; or how many before the part.
+    using BlockCounts = std::array<std::size_t, most_blocks>;
 
     // A thread prefers the blocks in its part of space, whose data is near its core.
     struct Thread {
@@ -135,7 +138,8 @@ private:
     bool divide(std::span<const mesh::VertexId> vertices, Workers& workers);
     void make_planes(std::span<const mesh::VertexId> vertices);
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
-    void find_blocks(std::span<const mesh::VertexId> vertices, Workers& workers);
+    void find_leaves(std::span<const mesh::VertexId> vertices, Workers& workers);
+    void fill_blocks(Workers& workers);
     std::uint8_t leaf_of_new(mesh::VertexId v) const;
     bool take_turns(std::span<const mesh::VertexId> vertices, Workers& workers);
     void forget(std::span<const mesh::VertexId> vertices, Workers& workers);
@@ -262,17 +266,12 @@ private:
 
     // What follows in the order of the list.
     template <class Action>
-    void settle(Action& action) {
-        for (std::uint32_t turn = 0; turn < block_of_.size(); ++turn) {
-            Block& block = blocks_[block_of_[turn]];
-            const Item& item = block.items[block.settled++];
-            complex_.add_changes(
-                std::span(block.changes.changed).subspan(block.listed, item.changes));
-            block.listed += item.changes;
+    void settle(Action& action, Workers& workers) {
+        list_changes(workers);
+        for (std::uint32_t turn = 0; turn < leaf_of_.size(); ++turn)
             action.settle(turn, date_of(turn));
-        }
-        for (const Block& block : blocks_) complex_.add_watched(block.changes.watched);
     }
+    void list_changes(Workers& workers);
 
     template <class Action>
     void run_next(Block& block, mesh::VertexId v, Item& item, Action& action) {
@@ -300,7 +299,10 @@ private:
     std::vector<std::uint8_t> known_of_vertex_;  // leaf | inner_bit
     std::vector<std::uint32_t> inner_since_;     // per vertex: a time at which it was inner, or 0
     std::vector<std::uint32_t> turn_of_vertex_;  // no_turn if it is not in the list
-    std::vector<std::uint8_t> block_of_;         // per turn
+    std::vector<std::uint8_t> leaf_of_;          // per turn
+    std::vector<BlockCounts> items_before_;      // per part of the list
+    std::vector<BlockCounts> changes_before_;    // the same for the changed tets
+    std::vector<std::size_t> listed_before_;     // their sum
     std::uint32_t start_ = 0;                    // the change clock at the start
 };
 

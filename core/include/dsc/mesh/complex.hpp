@@ -272,8 +272,8 @@ public:
     /// The parts of move(), for several vertices. place() and date_move() may run in parallel if no
     /// other thread uses the star meanwhile. The dates are above clock(), and of two moves with a
     /// common tet the later one comes later; `changes` receives the tets that are not on the lists
-    /// yet [parallel]. Then add_changes() adds these to the change list, in the order of the moves,
-    /// add_watched() adds them to the list of watched tets, and advance_clock() goes to a time that
+    /// yet [parallel]. Then add_changes() makes room for the changed ones on the change list, where
+    /// the caller writes them in the order of the moves, add_watched() adds them to the list of watched tets, and advance_clock() goes to a time that
     /// is not before the last move [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
@@ -281,8 +281,9 @@ public:
     template <class Alone>
     void date_move(VertexId v, const Star& star, std::uint32_t date, ChangeLists& changes,
                    const Alone& alone);
-    void add_changes(std::span<const TetId> tets) {
-        lists_.changed.insert(lists_.changed.end(), tets.begin(), tets.end());
+    std::span<TetId> add_changes(std::size_t count) {
+        lists_.changed.resize(lists_.changed.size() + count);
+        return std::span(lists_.changed).last(count);
     }
     void add_watched(std::span<const TetId> tets) {
         lists_.watched.insert(lists_.watched.end(), tets.begin(), tets.end());
