@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_tets = 16384;    // larger stars are walked each time
 constexpr std::size_t least_chunk = 16384;  // ids; the chunks grow
 constexpr std::size_t largest_chunk = large_page / sizeof(std::uint32_t);
-constexpr std::size_t small_step = 8;       // between the sizes of small blocks, in ids
+constexpr std::size_t small_step = 4;       // between the sizes of small blocks, in ids
 constexpr std::size_t largest_small = 128;  // larger blocks have powers of two
 constexpr std::size_t small_sizes = largest_small / small_step;
 
