@@ -32,9 +32,9 @@ struct Workers::Pool {
     const void* mark = nullptr;  // of the thread that runs the loop, for the threads that help
     std::size_t count = 0;
     std::size_t block = 1;
-    std::vector<Share> shares;              // the first one is that of the thread that runs the loop
-    std::atomic<std::uint32_t> loops{0};    // begun so far; changes under the lock, like the next two
-    std::atomic<std::size_t> helping{0};    // threads
+    std::vector<Share> shares;            // the first one is that of the thread that runs the loop
+    std::atomic<std::uint32_t> loops{0};  // begun so far; changes under the lock, like the next two
+    std::atomic<std::size_t> helping{0};  // threads
     std::atomic<bool> stopping{false};
     std::size_t failed_block = 0;
     std::exception_ptr failure;

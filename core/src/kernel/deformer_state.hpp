@@ -52,7 +52,6 @@ struct Deformer::State {
     double make_moves();
     void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report);
     std::size_t find_smoothings(std::size_t first);
-    void fetch_ahead(std::size_t i) const;
     std::size_t smooth_from(std::size_t first, StepReport& report);
     bool plain_smoothing(const repair::Request& request) const;
     void record(std::uint32_t i, Outcome outcome, std::uint32_t date, StepReport& report);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t least_block = 256;  // items, on average
 constexpr std::size_t most_samples = 1024;
-constexpr unsigned most_loops = 64;      // with the same planes, because vertices move on
+constexpr unsigned most_loops = 64;  // with the same planes, because vertices move on
 constexpr std::size_t part = 4096;   // of the list, in items
 
 // Replaces the counts of a part by those before it.

@@ -5,10 +5,10 @@
 // The vertices are divided into blocks of space. A thread processes the vertices of a block in the
 // order of the list, until it comes to a vertex with a neighbour in another block that is earlier
 // in the list and has not been processed. Then the thread continues with the block that is farthest
-// behind, in its own part of space if possible. So each vertex sees the star that it would see in serial order, and no two threads use
-// the same tet at the same time. The date of a move is that of its turn in the list, so it does not
-// depend on the other moves. The change list and the action's books follow in the order of the
-// list.
+// behind, in its own part of space if possible. So each vertex sees the star that it would see in
+// serial order, and no two threads use the same tet at the same time. The date of a move is that of
+// its turn in the list, so it does not depend on the other moves. The change list and the action's
+// books follow in the order of the list.
 
 #include <array>
 #include <atomic>
@@ -97,8 +97,8 @@ private:
         std::atomic<std::uint32_t> turn{0};  // of the next item; no_turn after the last one
         std::atomic<bool> taken{false};
         std::atomic<std::uint64_t> waits_for{no_wait};  // wait_for()
-        std::size_t next = 0;                // item
-        bool prepared = false;                // scratch has the star and the neighbours of the next
+        std::size_t next = 0;                           // item
+        bool prepared = false;      // scratch has the star and the neighbours of the next
         std::vector<Item> items;    // in the order of their turns
         mesh::ChangeLists changes;  // by the moves, in their order
         StarScratch scratch;
@@ -161,8 +161,9 @@ private:
     // The leaf of v. A vertex that has none, because it was in no list so far, gets `offered`.
     std::uint8_t leaf_in(mesh::VertexId v, std::uint8_t offered) {
         std::uint8_t leaf = known_of(v) & leaf_bits;
-        if (leaf == no_leaf && std::atomic_ref(known_of_vertex_[v])
-                                   .compare_exchange_strong(leaf, offered, std::memory_order_relaxed))
+        if (leaf == no_leaf &&
+            std::atomic_ref(known_of_vertex_[v])
+                .compare_exchange_strong(leaf, offered, std::memory_order_relaxed))
             return offered;
         return leaf;
     }

@@ -99,8 +99,7 @@ std::size_t Deformer::State::find_smoothings(std::size_t first) {
         const bool fetch = complex.exceeds_caches();
         end = std::min(end, count.load(std::memory_order_relaxed));
         for (std::size_t i = begin; i < end; ++i) {
-            if (fetch && i + ahead < end &&
-                requests[first + i + ahead].tet < complex.tet_slots())
+            if (fetch && i + ahead < end && requests[first + i + ahead].tet < complex.tet_slots())
                 complex.prefetch(requests[first + i + ahead].tet);
             if (!plain_smoothing(requests[first + i])) {
                 std::size_t known = count.load(std::memory_order_relaxed);
@@ -126,21 +125,6 @@ std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) 
     return smoothed.size();
 }
 
-// Asks the memory for what the next requests look at.
-void Deformer::State::fetch_ahead(std::size_t i) const {
-    constexpr std::size_t near = 8, far = 24;
-    if (!complex.exceeds_caches()) return;
-    const auto tet_at = [this](std::size_t at) {
-        // All requests for one tet usually follow each other.
-        if (at >= requests.size() || requests[at].tet == requests[at - 1].tet) return mesh::none;
-        return requests[at].tet < complex.tet_slots() ? requests[at].tet : mesh::none;
-    };
-    if (const TetId t = tet_at(i + far); t != mesh::none) complex.prefetch_with_codes(t);
-    if (const TetId t = tet_at(i + near);
-        t != mesh::none && complex.quality(t) < requests[i + near].only_below)
-        complex.prefetch_round(t);
-}
-
 void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool settled,
                              StepReport& report) {
     const auto dirty = queues.next_round(workers);
@@ -157,7 +141,6 @@ void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool se
         const std::size_t done = smooth_from(i, report);
         i += done;
         if (done > 0) continue;
-        fetch_ahead(i);
         const Outcome outcome = execute(bench, requests[i]);
         record(static_cast<std::uint32_t>(i), outcome, complex.clock(), report);
         ++i;

@@ -1,6 +1,8 @@
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -19,6 +21,39 @@ TEST_CASE("every index is visited once, whatever the number of threads") {
             });
             for (const auto& v : visits) CHECK(v == 1);
         }
+    }
+}
+
+TEST_CASE("loops that follow each other at once, or after the threads have fallen asleep") {
+    for (const unsigned threads : {2U, 5U}) {
+        dsc::Workers workers(threads);
+        std::size_t expected = 0;
+        std::atomic<std::size_t> sum{0};
+        for (std::size_t loop = 0; loop < 3000; ++loop) {
+            const std::size_t count = loop % 7;
+            workers.for_blocks(count, 2, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) sum += loop + i;
+            });
+            for (std::size_t i = 0; i < count; ++i) expected += loop + i;
+            // The loop has ended: nobody adds to the sum any more.
+            REQUIRE(sum == expected);
+            if (loop % 300 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
+}
+
+TEST_CASE("a thread begins with its own part of the list") {
+    dsc::Workers workers(2);
+    // Each of the two blocks waits until the other one has begun, so two threads run them.
+    for (int loop = 0; loop < 50; ++loop) {
+        std::atomic<int> begun{0};
+        std::thread::id first;
+        workers.for_blocks(2, 1, [&](std::size_t begin, std::size_t) {
+            if (begin == 0) first = std::this_thread::get_id();
+            ++begun;
+            while (begun < 2) std::this_thread::yield();
+        });
+        CHECK(first == std::this_thread::get_id());
     }
 }
 

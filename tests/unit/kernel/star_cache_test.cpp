@@ -121,6 +121,49 @@ TEST_CASE("stored stars, neighbours and shape dates follow every operation") {
     CHECK(kept > 5 * changed);
 }
 
+TEST_CASE("the watched tets are those that have changed since the start, each once, whatever was "
+          "taken meanwhile") {
+    std::size_t found = 0, rest = 0;
+    for (const test::LabelledMesh& labelled : test::labelled_meshes()) {
+        CAPTURE(labelled.name);
+        mesh::Complex c = labelled.complex;
+        CHECK(c.watched().empty());
+        RandomStream random(RandomKey{12, 0, 0, 0});
+        Workbench bench(c);
+        const double length = mesh::mean_interface_edge(c);
+        bench.limits = {length, 1e-3, 0.5 * length, geometry::regular_tet_volume(length), 0.5};
+        std::vector<TetId> taken, watched;
+        for (int start = 0; start < 20; ++start) {
+            // What has not been taken yet is watched from the start.
+            const std::vector<TetId> open(c.changes().begin(), c.changes().end());
+            c.start_watch();
+            const std::uint32_t clock = c.clock();
+            for (int n = 0; n < 40; ++n) {
+                if (random.index(8) == 0) c.take_changes(taken);
+                static_cast<void>(execute(bench, random_request(c, random)));
+            }
+            watched.assign(c.watched().begin(), c.watched().end());
+            std::sort(watched.begin(), watched.end());
+            REQUIRE(std::adjacent_find(watched.begin(), watched.end()) == watched.end());
+            for (TetId t = 0; t < c.tet_slots(); ++t) {
+                if (!c.tet_alive(t)) continue;
+                const bool changed =
+                    c.date(t) > clock || std::find(open.begin(), open.end(), t) != open.end();
+                REQUIRE(std::binary_search(watched.begin(), watched.end(), t) == changed);
+                (changed ? found : rest) += 1;
+            }
+            // A tet that has not changed can be added.
+            const auto still = c.tet(c.seed(c.interface_vertices().front())).v[0];
+            const TetId t = c.seed(still);
+            const bool known = std::binary_search(watched.begin(), watched.end(), t);
+            c.watch(std::span(&t, 1));
+            CHECK(c.watched().size() == watched.size() + (known ? 0 : 1));
+        }
+    }
+    CHECK(found > 1000);
+    CHECK(rest > 1000);
+}
+
 TEST_CASE("a ring inside a phase is the whole ring, or it is refused for a reason") {
     for (const test::LabelledMesh& labelled : test::labelled_meshes()) {
         const mesh::Complex& c = labelled.complex;

@@ -54,7 +54,7 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
                                  "cloud::FilterReport 120\n"
                                  "hooks::FilterContext 32\n"
                                  "mesh::TetMesh 72\n"
-                                 "mesh::Complex 504\n"
+                                 "mesh::Complex 528\n"
                                  "repair::RepairRound 112\n"
                                  "repair::Request 44\n"
                                  "repair::TopologyCandidate 48\n"
@@ -71,6 +71,6 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
                                  "surface::ViewEdge 20\n";
     INFO("give DSC_ABI_MAJOR in dsc/plugin/fingerprint.hpp another number, say so in CHANGELOG.md, "
          "and record the new layout here");
-    CHECK(DSC_ABI_MAJOR == 5);
+    CHECK(DSC_ABI_MAJOR == 6);
     CHECK(layout() == recorded);
 }

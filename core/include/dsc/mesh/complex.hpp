@@ -205,19 +205,6 @@ public:
             if (v != none) __builtin_prefetch(&vertices_[v]);
         }
     }
-    /// The same for a tet with what lies across its faces, and then for everything round a tet that
-    /// is there already.
-    void prefetch_with_codes(TetId t) const {
-        __builtin_prefetch(&tets_[t]);
-        __builtin_prefetch(&neighbours_[t]);
-    }
-    void prefetch_round(TetId t) const {
-        prefetch_vertices(t);
-        for (const std::uint32_t code : neighbours_[t]) {
-            if (code != none) prefetch_with_codes(neighbour_tet(code));
-        }
-    }
-
     /// The same for a star: first where it is stored, then its ids, then its tets and neighbours as
     /// far as they are stored. Each call needs what the one before has fetched.
     void prefetch_star_entry(VertexId v) const { stars_.prefetch(v); }
@@ -233,9 +220,9 @@ public:
     void star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
     /// The same tets without the places. [step]
     void star(VertexId v, std::vector<TetId>& out) const;
-    /// The same tets and the neighbours without a copy: they lie in the cache, or in `walk` if there
-    /// are very many. They stay there until the next call for the same vertex or with the same
-    /// `walk`. [parallel] if no two threads ask for the same vertex.
+    /// The same tets and the neighbours without a copy: they lie in the cache, or in `walk` if
+    /// there are very many. They stay there until the next call for the same vertex or with the
+    /// same `walk`. [parallel] if no two threads ask for the same vertex.
     Star cached_star(VertexId v, StarWalk& walk) const;
     /// The place in v's star of the tet that refused a move of v last. It is only a hint where to
     /// look first: it may be any number, and nothing may depend on it but the time. [parallel] as
@@ -273,8 +260,8 @@ public:
     /// other thread uses the star meanwhile. The dates are above clock(), and of two moves with a
     /// common tet the later one comes later; `changes` receives the tets that are not on the lists
     /// yet [parallel]. Then add_changes() makes room for the changed ones on the change list, where
-    /// the caller writes them in the order of the moves, add_watched() adds them to the list of watched tets, and advance_clock() goes to a time that
-    /// is not before the last move [step].
+    /// the caller writes them in the order of the moves, add_watched() adds them to the list of
+    /// watched tets, and advance_clock() goes to a time that is not before the last move [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
     /// `alone(w)`: whether no other thread can date a move round neighbour w meanwhile.
@@ -376,9 +363,9 @@ private:
     std::vector<CavityLabels> cavity_labels_;
     std::vector<VertexId> relabelled_;
     mutable StarWalk walk_;
-    mutable StarCache stars_;        // of the vertices that were asked for
-    std::uint32_t taken_clock_ = 0;  // clock when the change list was last taken; tets of a later
-                                     // date are in the list
+    mutable StarCache stars_;          // of the vertices that were asked for
+    std::uint32_t taken_clock_ = 0;    // clock when the change list was last taken; tets of a later
+                                       // date are in the list
     std::uint32_t watched_since_ = 0;  // tets of this date or a later one are watched
     std::uint32_t clock_ = 0;
     std::uint32_t next_birth_ = 0;
@@ -395,8 +382,8 @@ private:
 };
 
 template <class Alone>
-void Complex::date_move(VertexId v, const Star& star, std::uint32_t date,
-                        ChangeLists& changes, const Alone& alone) {
+void Complex::date_move(VertexId v, const Star& star, std::uint32_t date, ChangeLists& changes,
+                        const Alone& alone) {
     for (const TetId t : star.tets) note(t, date, changes);
     const auto raise = [this, date, &alone](VertexId w) {
         std::uint32_t& own = vertices_[w].date;
