@@ -132,9 +132,7 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
         for (const TetId t : star) touch(t);
         return;
     }
-    for (const TetId t : star) note(t, clock_, lists_);
-    vertices_[v].date = clock_;
-    for (const VertexId w : neighbours) vertices_[w].date = clock_;
+    date_move(v, {star, neighbours}, clock_, lists_, [](VertexId) { return true; });
 }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {

@@ -93,8 +93,8 @@ Star Complex::cached_star(VertexId v, StarWalk& walk) const {
 // does not have: the one opposite the face through which it was reached.
 void Complex::find_neighbours(VertexId v, std::span<const std::uint32_t> codes,
                               std::vector<VertexId>& out, TetIndex& seen) const {
-    if (out.size() < codes.size() + 4) out.resize(codes.size() + 4);
     seen.clear();
+    if (out.size() < codes.size() + 3) out.resize(codes.size() + 3);
     std::size_t count = 0;
     for (const VertexId w : tets_[neighbour_tet(codes.front())].v) {
         if (w == v) continue;
