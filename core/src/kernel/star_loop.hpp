@@ -78,8 +78,8 @@ private:
     static constexpr unsigned most_levels = 4;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_turn = 0xffffffffU;
-    // What is known of a vertex: its leaf of the tree, and whether it is inner. A vertex stays in
-    // the leaf where it was first, until the planes are made again.
+    // The byte of a vertex contains its leaf of the tree, and a bit that is set if the vertex is
+    // inner. A vertex keeps its first leaf until the planes are made again.
     static constexpr std::uint8_t no_leaf = most_blocks, leaf_bits = 2 * most_blocks - 1,
                                   inner_bit = 0x80;
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
@@ -147,7 +147,7 @@ private:
     std::uint8_t leaf_at(const Vec3& place) const;
     Offer farthest_behind(const Thread& thread) const;
 
-    // What is known of a vertex. Only leaf_in() changes it while threads work.
+    // Reads the byte of a vertex. While threads work, only leaf_in() changes bytes.
     std::uint8_t known_of(mesh::VertexId v) {
         return std::atomic_ref(known_of_vertex_[v]).load(std::memory_order_relaxed);
     }

@@ -116,8 +116,8 @@ struct Star {
     std::span<const VertexId> neighbours;
 };
 
-/// Memory for walks round a vertex. Each thread needs its own object. An object can serve many
-/// walks, and then it allocates no new memory.
+/// The arrays of a walk round a vertex, for one thread. The next walk uses them again, so it
+/// allocates memory only if its star is larger.
 struct StarWalk {
     TetIndex places;
     std::vector<TetId> tets;
@@ -205,6 +205,7 @@ public:
             if (v != none) __builtin_prefetch(&vertices_[v]);
         }
     }
+
     /// The same for a star: first where it is stored, then its ids, then its tets and neighbours as
     /// far as they are stored. Each call needs what the one before has fetched.
     void prefetch_star_entry(VertexId v) const { stars_.prefetch(v); }
@@ -246,8 +247,8 @@ public:
     /// Commits a linked edit; its tets must be positive. Returns the id of the created vertex, or
     /// none. [step]
     VertexId replace(Edit& edit);
-    /// Moves a vertex. `star` must list all tets that contain it. After the move, every one of
-    /// these tets must be positive. [step]
+    /// Moves a vertex. `star` contains all tets round the vertex. The caller makes sure that they
+    /// are positive after the move. [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star);
     /// The same with known qualities of the tets at the new position, in the order of the star.
     /// [step]
