@@ -3,9 +3,11 @@
 #include "kernel/topology.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <dsc/base/state.hpp>
 #include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/tet_visit.hpp>
 
 namespace dsc::kernel {
 namespace {
@@ -80,10 +82,8 @@ void TopologyStage::add_seed(std::array<VertexId, 3> v, SeedBlock& block) const 
 }
 
 bool TopologyStage::interface_edge(TetId t, VertexId a, VertexId b, mesh::EdgeRing& ring) const {
-    const mesh::Complex& c = bench_.complex;
-    c.ring(t, a, b, ring);
-    return std::any_of(ring.tets.begin(), ring.tets.end(),
-                       [&](TetId r) { return c.label(r) != c.label(t); });
+    constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
+    return !bench_.complex.inner_ring(t, a, b, any_number, ring);
 }
 
 bool TopologyStage::neck_face(TetId t, unsigned face, mesh::EdgeRing& ring) const {
@@ -158,14 +158,15 @@ void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> cha
     for (SeedBlock& block : blocks) block.seeds.clear();
     const auto body = [&job](std::size_t begin, std::size_t end) {
         SeedBlock& block = job.stage.seed_blocks_[begin / seed_block];
-        constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
         const mesh::Complex& c = job.stage.bench_.complex;
-        for (std::size_t i = begin; i < end; ++i) {
-            if (i + far < end) c.prefetch(job.changed[i + far]);
-            if (i + near < end) c.prefetch_vertices(job.changed[i + near]);
-            if (c.tet_alive(job.changed[i]))
-                job.stage.collect_seeds_of(job.changed[i], job.step, block);
-        }
+        const auto may_have_edge = [&c](TetId t) {
+            const auto& v = c.tet(t).v;
+            return c.movable(v[0]) + c.movable(v[1]) + c.movable(v[2]) + c.movable(v[3]) >= 2;
+        };
+        const std::span<const TetId> tets = job.changed.subspan(begin, end - begin);
+        mesh::visit_tets(c, tets, may_have_edge, [&](std::size_t i) {
+            if (c.tet_alive(tets[i])) job.stage.collect_seeds_of(tets[i], job.step, block);
+        });
     };
     for_blocks(workers, changed.size(), seed_block, body);
     seeds_.clear();

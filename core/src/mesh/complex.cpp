@@ -29,13 +29,16 @@ VertexId Complex::allocate_vertex(const Vec3& position) {
     if (free_vertices_.empty()) {
         v = static_cast<VertexId>(vertices_.size());
         vertices_.emplace_back();
-        shape_dates_.push_back(0);
+        shapes_.emplace_back();
+        births_.emplace_back();
         stars_.grow(vertices_.size());
     } else {
         v = free_vertices_.back();
         free_vertices_.pop_back();
     }
-    vertices_[v] = {position, none, next_birth_++, clock_, no_slot, 1, 0};
+    vertices_[v] = {position, clock_, no_slot, 1, 0};
+    shapes_[v].seed = none;
+    births_[v] = next_birth_++;
     return v;
 }
 
@@ -147,7 +150,7 @@ void Complex::relabel(std::span<const TetId> tets, Label label) {
         }
     }
     for (const VertexId v : relabelled_) {
-        shape_dates_[v] = clock_;
+        shapes_[v].date = clock_;
         refresh_phases(v);
     }
 }
@@ -230,8 +233,7 @@ VertexId Complex::replace(Edit& edit) {
         tets_[t].label = edit.added[i].label;
         tets_[t].birth_date = clock_;
         for (const VertexId v : tet.v) {
-            vertices_[v].seed = t;
-            shape_dates_[v] = clock_;
+            shapes_[v] = {t, clock_};
             stars_.forget(v);
         }
     }
@@ -254,7 +256,7 @@ VertexId Complex::replace(Edit& edit) {
     }
     if (edit.deleted != none) {
         set_phases(edit.deleted, 1);
-        vertices_[edit.deleted].seed = none;
+        shapes_[edit.deleted].seed = none;
         stars_.forget(edit.deleted);
         free_vertices_.push_back(edit.deleted);
     }
@@ -269,11 +271,13 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets
     constexpr std::size_t assembled_tets = 16384, assembled_stars = 2048;  // per block
     Complex c;
     c.vertices_.reserve(points.size());
+    c.births_.reserve(points.size());
     for (const Vec3& p : points) {
-        c.vertices_.push_back({p, none, c.next_birth_++, 0, no_slot, 1, 0});
+        c.vertices_.push_back({p, 0, no_slot, 1, 0});
+        c.births_.push_back(c.next_birth_++);
         c.box_.extend(p);
     }
-    c.shape_dates_.assign(c.vertices_.size(), 1);
+    c.shapes_.assign(c.vertices_.size(), {none, 1});
     c.stars_.grow(c.vertices_.size());
     c.tets_.resize(tets.size());
     c.neighbours_ = std::move(neighbours);
@@ -292,7 +296,7 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets
     for (TetId t = 0; t < n; ++t) {
         const auto& v = c.tets_[t].v;
         for (unsigned f = 0; f < 4; ++f) {
-            c.vertices_[v[f]].seed = t;
+            c.shapes_[v[f]].seed = t;
             if (c.neighbours_[t][f] != none) continue;
             for (const auto i : face_vertices[f]) c.vertices_[v[i]].on_box = 1;
         }

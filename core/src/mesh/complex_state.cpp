@@ -7,6 +7,8 @@ namespace dsc::mesh {
 
 void Complex::save(StateWriter& out) const {
     out.list(vertices_);
+    out.list(shapes_);
+    out.list(births_);
     out.list(tets_);
     out.list(neighbours_);
     out.list(free_vertices_);
@@ -23,11 +25,13 @@ void Complex::save(StateWriter& out) const {
 Complex Complex::load(StateReader& in) {
     Complex c;
     in.list(c.vertices_);
-    c.shape_dates_.assign(c.vertices_.size(), 0);
+    in.list(c.shapes_);
+    in.list(c.births_);
     c.stars_.grow(c.vertices_.size());
     in.list(c.tets_);
     in.list(c.neighbours_);
-    if (c.neighbours_.size() != c.tets_.size())
+    if (c.neighbours_.size() != c.tets_.size() || c.shapes_.size() != c.vertices_.size() ||
+        c.births_.size() != c.vertices_.size())
         throw IoError(
             "state.damaged", "saved complex", "",
             "its lists have different lengths, so it is damaged or is not a saved complex",

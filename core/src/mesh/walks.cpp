@@ -147,7 +147,7 @@ void Complex::walk_codes(VertexId v, std::vector<std::uint32_t>& out, TetIndex& 
     // Kept in a register: the compiler cannot know that writing to the table does not change it.
     const Tet* const tets = tets_.data();
     const TetNeighbours* const neighbours = neighbours_.data();
-    const TetId first = vertices_[v].seed;
+    const TetId first = shapes_[v].seed;
     places.insert(first);
     // A code is written, and counts if its tet is new: a branch could not be predicted.
     if (out.size() < 64) out.resize(64);

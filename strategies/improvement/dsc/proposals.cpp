@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <iterator>
 
 #include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/tet_visit.hpp>
 
 #include "quantised.hpp"
 
@@ -72,9 +72,10 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
     const auto square = [](double x) { return x * x; };
     const auto& v = c.tet(t).v;
     std::uint8_t found = 0;
-    unsigned on_interface = 0, interior = 0;  // bits of the corners
+    unsigned on_interface = 0;  // the number of corners there
+    unsigned interior = 0;      // bits of the corners
     for (unsigned k = 0; k < 4; ++k) {
-        on_interface |= (c.on_interface(v[k]) ? 1U : 0U) << k;
+        on_interface += c.on_interface(v[k]) ? 1U : 0U;
         interior |= (c.interior(v[k]) ? 1U : 0U) << k;
     }
     const auto q = static_cast<double>(c.quality(t));
@@ -85,7 +86,7 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
         may_thin_out(round, t))
         found |= small_volume;
     // Only a tet with three vertices on the interface can have a face there.
-    const bool has_face = round.size_edits && std::popcount(on_interface) >= 3;
+    const bool has_face = round.size_edits && on_interface >= 3;
     for (unsigned f = 0; f < 4 && has_face; ++f) {
         if (c.label(t) <= c.label_across(t, f)) continue;
         for (unsigned k = 0; k < 3; ++k) {
@@ -98,7 +99,7 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
             if (l2 < shortest2 || l2 > longest2) found |= interface_edges;
         }
     }
-    if (!(limits_.max_free_edge > 0.0) || on_interface == 0 || on_interface == 15) return found;
+    if (!(limits_.max_free_edge > 0.0) || on_interface == 0 || on_interface == 4) return found;
     for (const auto& ends : mesh::edge_vertices) {
         const mesh::VertexId a = v[ends[0]], b = v[ends[1]];
         if (c.on_interface(a) == c.on_interface(b)) continue;
@@ -203,13 +204,19 @@ void Proposals::find(const repair::RepairRound& round, Workers* workers) {
 
 void Proposals::find_in_block(const repair::RepairRound& round, std::size_t begin, std::size_t end,
                               Findings& found) {
-    constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
     found.clear();
-    for (std::size_t i = begin; i < end; ++i) {
-        if (i + far < end) round.complex.prefetch(round.dirty[i + far]);
-        if (i + near < end) round.complex.prefetch_vertices(round.dirty[i + near]);
-        find_in(round, static_cast<std::uint32_t>(i), found);
-    }
+    // Of the tets at faces look() reads the neighbours.
+    const auto may_have_face = [&round](mesh::TetId t) {
+        const mesh::Complex& c = round.complex;
+        const auto& v = c.tet(t).v;
+        return c.on_interface(v[0]) + c.on_interface(v[1]) + c.on_interface(v[2]) +
+                   c.on_interface(v[3]) >=
+               3;
+    };
+    mesh::visit_tets(round.complex, round.dirty.subspan(begin, end - begin), may_have_face,
+                     [&](std::size_t i) {
+                         find_in(round, static_cast<std::uint32_t>(begin + i), found);
+                     });
 }
 
 // Appends what is in the first blocks.

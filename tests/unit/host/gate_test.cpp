@@ -91,7 +91,7 @@ TEST_CASE("an entry of another size") {
 TEST_CASE("other versions of the ABI") {
     CHECK(refusal(fixture("bad_abi_old")).code == "plugin.abi");
     CHECK(refusal(fixture("bad_abi_old")).text ==
-          fixture("bad_abi_old").string() + ": was built for ABI 5.0, this dsc has ABI 6.0; "
+          fixture("bad_abi_old").string() + ": was built for ABI 6.0, this dsc has ABI 7.0; "
                                             "rebuild it with the headers of this dsc");
     CHECK(refusal(fixture("bad_abi_new")).code == "plugin.abi");
     CHECK(refusal(fixture("bad_abi_new")).text ==

@@ -140,7 +140,7 @@ public:
     std::size_t tet_slots() const { return tets_.size(); }
     std::size_t vertex_count() const { return vertices_.size() - free_vertices_.size(); }
     std::size_t tet_count() const { return tets_.size() - free_tets_.size(); }
-    bool vertex_alive(VertexId v) const { return vertices_[v].seed != none; }
+    bool vertex_alive(VertexId v) const { return shapes_[v].seed != none; }
     bool tet_alive(TetId t) const { return tets_[t].v[0] != none; }
 
     const Vec3& position(VertexId v) const { return vertices_[v].position; }
@@ -160,12 +160,12 @@ public:
     /// Value of the change clock when a tet of the vertex' star last changed.
     std::uint32_t vertex_date(VertexId v) const { return vertices_[v].date; }
     /// Value of the change clock when a tet of the vertex' star was last made, removed or
-    /// relabelled; moves leave it. It is not saved: after load() it is 0.
-    std::uint32_t shape_date(VertexId v) const { return shape_dates_[v]; }
+    /// relabelled; moves leave it.
+    std::uint32_t shape_date(VertexId v) const { return shapes_[v].date; }
     /// The change clock. It advances with each committed change.
     std::uint32_t clock() const { return clock_; }
     /// Number of the vertex in the order of creation; it survives renumbering and resuming.
-    std::uint32_t birth(VertexId v) const { return vertices_[v].birth; }
+    std::uint32_t birth(VertexId v) const { return births_[v]; }
     /// Birth of the vertex that will be created next: greater than all births so far. A birth is
     /// never used again.
     std::uint32_t next_birth() const { return next_birth_; }
@@ -205,6 +205,15 @@ public:
             if (v != none) __builtin_prefetch(&vertices_[v]);
         }
     }
+    void prefetch_vertex(VertexId v) const { __builtin_prefetch(&vertices_[v]); }
+    /// The same for what lies across the faces of a tet: first for where it is stored, then for the
+    /// tets there.
+    void prefetch_codes(TetId t) const { __builtin_prefetch(&neighbours_[t]); }
+    void prefetch_across(TetId t) const {
+        for (const std::uint32_t code : neighbours_[t]) {
+            if (code != none) prefetch(neighbour_tet(code));
+        }
+    }
 
     /// The same for a star: first where it is stored, then its ids, then its tets and neighbours as
     /// far as they are stored. Each call needs what the one before has fetched.
@@ -230,7 +239,7 @@ public:
     /// cached_star().
     std::size_t suspect(VertexId v) const { return stars_.suspect(v); }
     void keep_suspect(VertexId v, std::size_t place) const { stars_.keep_suspect(v, place); }
-    TetId seed(VertexId v) const { return vertices_[v].seed; }
+    TetId seed(VertexId v) const { return shapes_[v].seed; }
     /// The ring of edge (a, b), both vertices of tet t. [parallel]
     void ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const;
     /// The same for an edge that is not on the box, if its ring has at most `most` tets and all
@@ -315,16 +324,20 @@ public:
     static Complex load(StateReader& in);
 
 private:
-    struct Vertex {
+    // What loops over many tets read of a vertex. Like Tet, it lies in one line of the caches.
+    struct alignas(32) Vertex {
         Vec3 position;
-        TetId seed;
-        std::uint32_t birth;
         std::uint32_t date;
         std::uint32_t interface_slot : 29;  // index into interface_; no_slot if it is not there
         std::uint32_t phases : 2;
         std::uint32_t on_box : 1;
     };
-    static_assert(sizeof(Vertex) == 40);
+    static_assert(sizeof(Vertex) == 32);
+    // What changes only if the tets of its star change.
+    struct VertexShape {
+        TetId seed = none;
+        std::uint32_t date = 0;  // shape_date()
+    };
     static constexpr std::uint32_t no_slot = (1U << 29U) - 1;
 
     VertexId allocate_vertex(const Vec3& position);
@@ -350,8 +363,9 @@ private:
 
     LargeVector<Vertex> vertices_;
     LargeVector<Tet> tets_;
-    LargeVector<TetNeighbours> neighbours_;   // per tet
-    LargeVector<std::uint32_t> shape_dates_;  // per vertex
+    LargeVector<TetNeighbours> neighbours_;  // per tet
+    LargeVector<VertexShape> shapes_;        // per vertex
+    LargeVector<std::uint32_t> births_;      // per vertex
     std::vector<VertexId> free_vertices_;
     std::vector<TetId> free_tets_;
     std::vector<VertexId> interface_;
