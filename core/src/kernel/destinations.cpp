@@ -72,6 +72,8 @@ struct Destinations::Pass {
     Entry& at(std::size_t i) const { return all.entries_[all.entry_of_vertex_[all.active_[i]]]; }
     void decide(std::size_t i, Fate fate) const { all.fates_[i] = fate; }
 
+    void prefetch(std::size_t i) const { __builtin_prefetch(&at(i)); }
+
     bool ready(std::size_t i) const {
         const VertexId v = all.active_[i];
         const Entry& entry = at(i);
@@ -109,7 +111,10 @@ struct Destinations::Pass {
 void Destinations::drop_dead_and_double() {
     ++pass_;
     std::size_t kept = 0;
-    for (const VertexId v : active_) {
+    constexpr std::size_t ahead = 16;
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+        if (i + ahead < active_.size()) prefetch(active_[i + ahead]);
+        const VertexId v = active_[i];
         if (v >= complex_.vertex_slots() || !complex_.vertex_alive(v) || !moves(v)) continue;
         if (!complex_.movable(v)) {
             not_arrived_.push_back(complex_.birth(v));

@@ -30,6 +30,12 @@ public:
     /// Sets the destination of v. [step]
     void send(VertexId v, const Vec3& destination);
 
+    /// Asks the memory for what send() will read and write.
+    void prefetch(VertexId v) const {
+        complex_.prefetch_vertex(v);
+        if (v < entry_of_vertex_.size()) __builtin_prefetch(&entry_of_vertex_[v], 1);
+    }
+
     /// Makes one attempt for every vertex that moves; returns the sum of the remaining distances.
     /// [step]
     double pass(const Limits& limits, const PassOptions& options);

@@ -14,6 +14,7 @@ constexpr std::size_t least_block = 256;  // items, on average
 constexpr std::size_t most_samples = 1024;
 constexpr unsigned most_loops = 64;  // with the same planes, because vertices move on
 constexpr std::size_t part = 4096;   // of the list, in items
+constexpr std::size_t ahead = 16;    // how many items ahead the memory is asked for data
 
 // Replaces the counts of a part by those before it.
 template <class Counts>
@@ -57,7 +58,6 @@ void StarLoop::make_planes(std::span<const mesh::VertexId> vertices) {
         samples_.push_back(complex_.position(vertices[turn]));
     split(1, 0, samples_);
     std::fill(known_of_vertex_.begin(), known_of_vertex_.end(), no_leaf);
-    std::fill(inner_since_.begin(), inner_since_.end(), 0);
 }
 
 // The leaf of a neighbour, so that a shape that moves on takes its leaves along.
@@ -69,18 +69,14 @@ std::uint8_t StarLoop::leaf_of_new(mesh::VertexId v) const {
     return leaf_at(complex_.position(v));
 }
 
-// Writes leaf_of_, and what is known of the vertices.
+// Writes leaf_of_, and the leaves of vertices that have none.
 void StarLoop::find_leaves(std::span<const mesh::VertexId> vertices, Workers& workers) {
     leaf_of_.resize(vertices.size());
     std::atomic<bool> some_new{false};
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
-            const mesh::VertexId v = vertices[turn];
-            const std::uint8_t leaf = known_of(v) & leaf_bits;
-            leaf_of_[turn] = leaf;
-            if (leaf == no_leaf) some_new.store(true, std::memory_order_relaxed);
-            const auto known = static_cast<std::uint8_t>(leaf | (stays_inner(v) ? inner_bit : 0));
-            std::atomic_ref(known_of_vertex_[v]).store(known, std::memory_order_relaxed);
+            leaf_of_[turn] = known_of(vertices[turn]) & leaf_bits;
+            if (leaf_of_[turn] == no_leaf) some_new.store(true, std::memory_order_relaxed);
         }
     });
     if (!some_new) return;
@@ -156,6 +152,7 @@ bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& wor
     std::atomic<bool> twice{false};
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
+            if (turn + ahead < end) __builtin_prefetch(&turn_of_vertex_[vertices[turn + ahead]], 1);
             const std::atomic_ref known(turn_of_vertex_[vertices[turn]]);
             if (known.exchange(static_cast<std::uint32_t>(turn), std::memory_order_relaxed) !=
                 no_turn)
@@ -167,12 +164,8 @@ bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& wor
 
 void StarLoop::forget(std::span<const mesh::VertexId> vertices, Workers& workers) {
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
-        for (const mesh::VertexId v : vertices.subspan(begin, end - begin)) {
+        for (const mesh::VertexId v : vertices.subspan(begin, end - begin))
             std::atomic_ref(turn_of_vertex_[v]).store(no_turn, std::memory_order_relaxed);
-            const std::atomic_ref known(known_of_vertex_[v]);
-            known.store(known.load(std::memory_order_relaxed) & leaf_bits,
-                        std::memory_order_relaxed);
-        }
     });
 }
 
@@ -184,13 +177,14 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     coarser_ = most_levels - levels;
     if (turn_of_vertex_.size() < complex_.vertex_slots()) {
         known_of_vertex_.resize(complex_.vertex_slots(), no_leaf);
-        inner_since_.resize(complex_.vertex_slots(), 0);
         turn_of_vertex_.resize(complex_.vertex_slots(), no_turn);
     }
     if (!take_turns(vertices, workers)) {
         forget(vertices, workers);
         return false;
     }
+    complex_.take_reshaped(reshaped_);
+    for (const mesh::VertexId v : reshaped_) known_of_vertex_[v] &= leaf_bits;
     const bool is_new = loops_++ % most_loops == 0;
     if (is_new) make_planes(vertices);
     find_leaves(vertices, workers);

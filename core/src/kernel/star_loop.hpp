@@ -41,6 +41,7 @@ public:
     explicit StarLoop(mesh::Complex& complex) : complex_(complex) {}
 
     /// For each vertices[i], which must be alive:
+    /// - action.prefetch(i): asks the memory for what ready(i) will read [parallel]
     /// - action.ready(i): false if there is nothing to try [parallel]
     /// - action.attempt(i, scratch, date): scratch.star is filled; date is the time of its turn;
     ///   true if the vertex moves to scratch.place, with scratch.qualities [parallel]
@@ -53,7 +54,7 @@ public:
         start_ = complex_.clock();
         if (workers == nullptr || workers->threads() < 2 || !divide(vertices, *workers)) {
             for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-                prefetch(i, vertices.size(), [&](std::size_t at) { return vertices[at]; });
+                prefetch(vertices, action, i, vertices.size(), [](std::size_t at) { return at; });
                 run_one(vertices[i], i, action);
             }
             complex_.advance_clock(date_of(vertices.size()) - 1);
@@ -79,7 +80,8 @@ private:
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_turn = 0xffffffffU;
     // The byte of a vertex contains its leaf of the tree, and a bit that is set if the vertex is
-    // inner. A vertex keeps its first leaf until the planes are made again.
+    // known to be inner. A vertex keeps its first leaf until the planes are made again, and the bit
+    // until its shape changes.
     static constexpr std::uint8_t no_leaf = most_blocks, leaf_bits = 2 * most_blocks - 1,
                                   inner_bit = 0x80;
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
@@ -147,17 +149,14 @@ private:
     std::uint8_t leaf_at(const Vec3& place) const;
     Offer farthest_behind(const Thread& thread) const;
 
-    // Reads the byte of a vertex. While threads work, only leaf_in() changes bytes.
+    // Reads the byte of a vertex. While threads work, only leaf_in() and is_free() change bytes.
     std::uint8_t known_of(mesh::VertexId v) {
         return std::atomic_ref(known_of_vertex_[v]).load(std::memory_order_relaxed);
     }
-    // Whether all neighbours were in the leaf of v at the start of this loop. Then the order of the
-    // block is enough, and the star of a vertex that is not ready need not be looked at; also, only
-    // the thread that has the block writes to v.
+    // Whether all neighbours are in the leaf of v. Then the order of the block is enough, and the
+    // star of a vertex that is not ready need not be looked at; also, only the thread that has the
+    // block writes to v.
     bool is_inner(mesh::VertexId v) { return (known_of(v) & inner_bit) != 0; }
-    bool stays_inner(mesh::VertexId v) const {
-        return inner_since_[v] != 0 && complex_.shape_date(v) <= inner_since_[v];
-    }
     // The leaf of v. A vertex that has none, because it was in no list so far, gets `offered`.
     std::uint8_t leaf_in(mesh::VertexId v, std::uint8_t offered) {
         std::uint8_t leaf = known_of(v) & leaf_bits;
@@ -183,17 +182,26 @@ private:
                 return false;
             }
         }
-        if (inner) inner_since_[v] = start_;
+        if (inner) {
+            std::atomic_ref(known_of_vertex_[v])
+                .store(static_cast<std::uint8_t>(own | inner_bit), std::memory_order_relaxed);
+        }
         return true;
     }
 
-    // `at(i)` is the i-th of `count` vertices.
-    template <class At>
-    void prefetch(std::size_t i, std::size_t count, const At& at) const {
+    // `turn(i)` is the i-th of `count` turns.
+    template <class Action, class Turn>
+    void prefetch(std::span<const mesh::VertexId> vertices, const Action& action, std::size_t i,
+                  std::size_t count, const Turn& turn) const {
         if (!complex_.exceeds_caches()) return;
-        if (i + farther < count) complex_.prefetch_star_entry(at(i + farther));
-        if (i + far < count) complex_.prefetch_star(at(i + far));
-        if (i + near < count) complex_.prefetch_star_tets(at(i + near));
+        if (i + farther < count) {
+            const std::size_t at = turn(i + farther);
+            complex_.prefetch_star_entry(vertices[at]);
+            complex_.prefetch_vertex(vertices[at]);
+            action.prefetch(at);
+        }
+        if (i + far < count) complex_.prefetch_star(vertices[turn(i + far)]);
+        if (i + near < count) complex_.prefetch_star_tets(vertices[turn(i + near)]);
     }
 
     template <class Action>
@@ -207,6 +215,13 @@ private:
                 complex_.move(v, scratch.place, scratch.star.tets, scratch.qualities);
         }
         action.settle(i, date_of(i));
+    }
+
+    // The bytes of the neighbours.
+    void prefetch_known(mesh::VertexId v) const {
+        if (!complex_.exceeds_caches()) return;
+        for (const mesh::VertexId w : complex_.stored_neighbours(v))
+            __builtin_prefetch(&known_of_vertex_[w]);
     }
 
     // Until all items have been processed. The earliest of the items that are left can always be
@@ -242,8 +257,10 @@ private:
             Item& item = block.items[block.next];
             const mesh::VertexId v = vertices[item.turn];
             if (!block.prepared) {
-                prefetch(block.next, block.items.size(),
-                         [&](std::size_t at) { return vertices[block.items[at].turn]; });
+                prefetch(vertices, action, block.next, block.items.size(),
+                         [&](std::size_t at) { return block.items[at].turn; });
+                if (block.next + near < block.items.size())
+                    prefetch_known(vertices[block.items[block.next + near].turn]);
             }
             if (!is_inner(v)) {
                 prepare(block, v);
@@ -298,8 +315,8 @@ private:
     std::array<Plane, most_blocks> planes_;  // of the tree; node i has the children 2 i and 2 i + 1
     std::vector<Vec3> samples_;
     std::vector<std::uint8_t> known_of_vertex_;  // leaf | inner_bit
-    std::vector<std::uint32_t> inner_since_;     // per vertex: a time at which it was inner, or 0
     std::vector<std::uint32_t> turn_of_vertex_;  // no_turn if it is not in the list
+    std::vector<mesh::VertexId> reshaped_;       // since the last division
     std::vector<std::uint8_t> leaf_of_;          // per turn
     std::vector<BlockCounts> items_before_;      // per part of the list
     std::vector<BlockCounts> changes_before_;    // the same for the changed tets

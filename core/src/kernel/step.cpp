@@ -19,10 +19,12 @@ void Deformer::State::begin_step(std::span<const VertexId> vertices,
     outcomes.clear();
     bench.sums = {};
     bench.crease_exceptions = 0;
+    constexpr std::size_t ahead = 16;  // vertices
     const Vec3 low = complex.box().low.array() + 2.0 * length;
     const Vec3 high = complex.box().high.array() - 2.0 * length;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const VertexId v = vertices[i];
+        if (i + ahead < vertices.size()) destinations.prefetch(vertices[i + ahead]);
         // In this order, so that a vertex without displacement is not even looked at.
         if (displacements[i].isZero(0.0) || !complex.movable(v)) continue;
         ++report.requested;
@@ -54,6 +56,9 @@ struct Deformer::State::Smoothing {
     StepReport& report;
 
     const repair::Request& request(std::size_t i) const { return state.requests[first + i]; }
+    void prefetch(std::size_t i) const {
+        state.bench.prefetch_memory(request(i).vertices[0]);
+    }
     bool decide(std::size_t i, Outcome outcome) const {
         state.outcomes[first + i] = outcome;
         return !outcome.refused();

@@ -34,11 +34,6 @@ EventCounts& EventCounts::operator+=(const EventCounts& other) {
     return *this;
 }
 
-void OperationCounts::add(repair::Outcome outcome) {
-    ++tried;
-    ++(outcome.refused() ? refused[static_cast<std::size_t>(outcome.reason())] : committed);
-}
-
 OperationCounts& OperationCounts::operator+=(const OperationCounts& other) {
     tried += other.tried;
     committed += other.committed;

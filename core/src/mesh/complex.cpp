@@ -70,6 +70,12 @@ void Complex::start_watch() {
     watched_since_ = taken_clock_ + 1;
 }
 
+void Complex::take_reshaped(std::vector<VertexId>& out) {
+    out.clear();
+    std::swap(out, reshaped_);
+    reshaped_since_ = clock_;
+}
+
 void Complex::watch(std::span<const TetId> tets) {
     for (const TetId t : tets) {
         if (tets_[t].date < watched_since_) lists_.watched.push_back(t);
@@ -150,7 +156,7 @@ void Complex::relabel(std::span<const TetId> tets, Label label) {
         }
     }
     for (const VertexId v : relabelled_) {
-        shapes_[v].date = clock_;
+        reshape(v);
         refresh_phases(v);
     }
 }
@@ -233,7 +239,8 @@ VertexId Complex::replace(Edit& edit) {
         tets_[t].label = edit.added[i].label;
         tets_[t].birth_date = clock_;
         for (const VertexId v : tet.v) {
-            shapes_[v] = {t, clock_};
+            shapes_[v].seed = t;
+            reshape(v);
             stars_.forget(v);
         }
     }
@@ -283,7 +290,7 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets
     c.neighbours_ = std::move(neighbours);
     const std::size_t n = c.tets_.size();
     c.lists_.changed.reserve(n);
-    c.clock_ = 1;
+    c.clock_ = c.reshaped_since_ = 1;
     for_blocks(workers, n, assembled_tets, [&c, &tets, labels](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             const TetCorners& v = tets[t];

@@ -2,6 +2,7 @@
 #include "dsc/surface/surface_view.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/measure.hpp>
@@ -75,49 +76,90 @@ bool ViewMemory::only_moved(const mesh::Complex& complex, const SurfaceView& vie
 }
 
 void ViewMemory::keep(const mesh::Complex& complex, const SurfaceView& view,
-                      std::span<const std::uint32_t> counts) {
+                      std::span<const std::uint32_t> counts, Workers* workers) {
     clock_ = complex.clock();
     births_ = view.births;
     if (index_.size() < complex.vertex_slots()) index_.resize(complex.vertex_slots());
     starts_.resize(counts.size() + 1);
     starts_[0] = 0;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        starts_[i + 1] = starts_[i] + counts[i];
-        index_[view.vertex_ids[i]] = static_cast<std::uint32_t>(i);
-    }
+    std::partial_sum(counts.begin(), counts.end(), starts_.begin() + 1);
+    for_blocks(workers, counts.size(), measure_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            index_[view.vertex_ids[i]] = static_cast<std::uint32_t>(i);
+    });
     faces_.resize(view.faces.size());
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-        const auto& [a, b, c] = view.faces[f];
-        faces_[f] = {{view.vertex_ids[a], view.vertex_ids[b], view.vertex_ids[c]},
-                     view.face_tets[f],
-                     view.face_labels[f]};
-    }
+    for_blocks(workers, faces_.size(), measure_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const auto& [a, b, c] = view.faces[f];
+            faces_[f] = {{view.vertex_ids[a], view.vertex_ids[b], view.vertex_ids[c]},
+                         view.face_tets[f],
+                         view.face_labels[f]};
+        }
+    });
 }
 
 namespace {
 
-// Vertices, faces and what belongs to them, but not what depends on positions.
-void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMemory* memory) {
-    ViewMemory::Arrays own;
-    auto& [keys, blocks, index, counts] = memory != nullptr ? memory->arrays() : own;
+// The interface vertices in ascending birth order.
+void list_vertices(const mesh::Complex& c, SurfaceView& view, Workers* workers,
+                   ViewMemory::Arrays& arrays) {
     const auto interface = c.interface_vertices();
     const std::size_t n = interface.size();
+    std::vector<std::uint64_t>& keys = arrays.keys;
     // The birth before the vertex, so that sorting does not look into the complex.
     keys.resize(n);
-    for (std::size_t i = 0; i < n; ++i)
-        keys[i] = std::uint64_t{c.birth(interface[i])} << 32U | interface[i];
+    for_blocks(workers, n, measure_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            keys[i] = std::uint64_t{c.birth(interface[i])} << 32U | interface[i];
+    });
     std::sort(keys.begin(), keys.end());
     view.vertex_ids.resize(n);
     view.births.resize(n);
     view.movable.resize(n);
-    if (index.size() < c.vertex_slots()) index.resize(c.vertex_slots());
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto v = static_cast<mesh::VertexId>(keys[i]);
-        view.vertex_ids[i] = v;
-        index[v] = static_cast<std::uint32_t>(i);
-        view.births[i] = static_cast<std::uint32_t>(keys[i] >> 32U);
-        view.movable[i] = c.movable(v) ? 1 : 0;
+    if (arrays.index.size() < c.vertex_slots()) arrays.index.resize(c.vertex_slots());
+    for_blocks(workers, n, measure_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto v = static_cast<mesh::VertexId>(keys[i]);
+            view.vertex_ids[i] = v;
+            arrays.index[v] = static_cast<std::uint32_t>(i);
+            view.births[i] = static_cast<std::uint32_t>(keys[i] >> 32U);
+            view.movable[i] = c.movable(v) ? 1 : 0;
+        }
+    });
+}
+
+// Joins the faces of the blocks, which hold those of `n` vertices.
+void list_faces(SurfaceView& view, std::size_t n, Workers* workers, ViewMemory::Arrays& arrays) {
+    const std::size_t used = (n + walk_block - 1) / walk_block;
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < used; ++b) {
+        arrays.blocks[b].first = count;
+        count += arrays.blocks[b].faces.size();
     }
+    view.faces.resize(count);
+    view.face_tets.resize(count);
+    view.face_labels.resize(count);
+    for_blocks(workers, used, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            std::size_t f = arrays.blocks[b].first;
+            for (const RawFace& face : arrays.blocks[b].faces) {
+                for (std::size_t k = 0; k < 3; ++k)
+                    view.faces[f][k] = arrays.index[face.vertices[k]];
+                view.face_tets[f] = face.tet;
+                view.face_labels[f] = face.labels;
+                ++f;
+            }
+        }
+    });
+}
+
+// Vertices, faces and what belongs to them, but not what depends on positions.
+void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMemory* memory) {
+    ViewMemory::Arrays own;
+    ViewMemory::Arrays& arrays = memory != nullptr ? memory->arrays() : own;
+    list_vertices(c, view, workers, arrays);
+    const std::size_t n = view.vertex_ids.size();
+    auto& [keys, blocks, index, counts] = arrays;
     blocks.resize(std::max(blocks.size(), (n + walk_block - 1) / walk_block));
     struct Job {
         const mesh::Complex& c;
@@ -129,7 +171,8 @@ void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMe
     } const job{c, view, index, blocks, memory, counts};
     counts.resize(n);
     for_blocks(workers, n, walk_block, [&job](std::size_t begin, std::size_t end) {
-        auto& [walk, raw] = job.blocks[begin / walk_block];
+        mesh::StarWalk& walk = job.blocks[begin / walk_block].walk;
+        std::vector<RawFace>& raw = job.blocks[begin / walk_block].faces;
         raw.clear();
         for (std::size_t i = begin; i < end; ++i) {
             const auto first = static_cast<std::ptrdiff_t>(raw.size());
@@ -149,18 +192,8 @@ void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMe
             job.counts[i] = static_cast<std::uint32_t>(raw.end() - raw.begin() - first);
         }
     });
-    view.faces.clear();
-    view.face_tets.clear();
-    view.face_labels.clear();
-    for (std::size_t b = 0; b * walk_block < n; ++b) {
-        for (const RawFace& face : blocks[b].faces) {
-            view.faces.push_back(
-                {index[face.vertices[0]], index[face.vertices[1]], index[face.vertices[2]]});
-            view.face_tets.push_back(face.tet);
-            view.face_labels.push_back(face.labels);
-        }
-    }
-    if (memory != nullptr) memory->keep(c, view, counts);
+    list_faces(view, n, workers, arrays);
+    if (memory != nullptr) memory->keep(c, view, counts, workers);
     view.face_offsets.assign(n + 1, 0);
     for (const auto& face : view.faces) {
         for (const auto v : face) ++view.face_offsets[v + 1];
@@ -175,6 +208,17 @@ void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMe
     }
     for (std::size_t i = n; i > 0; --i) view.face_offsets[i] = view.face_offsets[i - 1];
     view.face_offsets[0] = 0;
+}
+
+// The normals of some vertices.
+void find_normals(SurfaceView& view, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+        Vec3 sum = Vec3::Zero();
+        for (std::uint32_t k = view.face_offsets[i]; k < view.face_offsets[i + 1]; ++k)
+            sum += view.face_normals[view.vertex_faces[k]];
+        const double length = sum.norm();
+        view.normals[i] = length > 1e-8 ? Vec3(sum / length) : Vec3(Vec3::Zero());
+    }
 }
 
 // Positions, areas and normals of a connected view.
@@ -201,16 +245,16 @@ void measure(const mesh::Complex& c, SurfaceView& view, Workers* workers) {
         }
     });
     view.normals.resize(n);
-    for_blocks(workers, n, measure_block, [&view](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            Vec3 sum = Vec3::Zero();
-            for (std::uint32_t k = view.face_offsets[i]; k < view.face_offsets[i + 1]; ++k)
-                sum += view.face_normals[view.vertex_faces[k]];
-            const double length = sum.norm();
-            view.normals[i] = length > 1e-8 ? Vec3(sum / length) : Vec3(Vec3::Zero());
+    // The mean edge is a sum in the order of the faces, so one thread computes it, as block 0.
+    const std::size_t blocks = (n + measure_block - 1) / measure_block;
+    for_blocks(workers, blocks + 1, 1, [&view, n](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            if (b == 0)
+                view.mean_edge = mean_edge(view.positions, view.faces);
+            else
+                find_normals(view, (b - 1) * measure_block, std::min(b * measure_block, n));
         }
     });
-    view.mean_edge = mean_edge(view.positions, view.faces);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <iterator>
 
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/tet_visit.hpp>
@@ -197,9 +196,11 @@ void Proposals::find(const repair::RepairRound& round, Workers* workers) {
             job.proposals.find_in_block(job.round, job.start + begin, job.start + end,
                                         job.proposals.blocks_[begin / look_block]);
         });
-        join((count + look_block - 1) / look_block);
+        join((count + look_block - 1) / look_block, workers);
     }
-    for (const FreeEntry& entry : all_.free) first_[entry.vertex] = mesh::none;
+    for_blocks(workers, all_.free.size(), look_block, [this](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) first_[all_.free[i].vertex] = mesh::none;
+    });
 }
 
 void Proposals::find_in_block(const repair::RepairRound& round, std::size_t begin, std::size_t end,
@@ -220,24 +221,38 @@ void Proposals::find_in_block(const repair::RepairRound& round, std::size_t begi
 }
 
 // Appends what is in the first blocks.
-void Proposals::join(std::size_t blocks) {
+void Proposals::join(std::size_t blocks, Workers* workers) {
+    // A tet of an earlier block may have asked for the vertex afterwards.
+    for_blocks(workers, blocks, 1, [this](std::size_t begin, std::size_t end) {
+        for (Findings& found : std::span(blocks_).subspan(begin, end - begin)) {
+            std::erase_if(found.free, [this](const FreeEntry& entry) {
+                return first_[entry.vertex] != entry.place;
+            });
+        }
+    });
     const auto append = [](auto& to, const auto& from) {
         for (auto entry : from) {
             entry.order = static_cast<std::uint32_t>(to.size());
             to.push_back(entry);
         }
     };
-    for (const Findings& found : std::span(blocks_).first(blocks)) {
+    std::size_t free = all_.free.size();
+    for (Findings& found : std::span(blocks_).first(blocks)) {
         append(all_.low, found.low);
         append(all_.small, found.small);
         append(all_.short_edges, found.short_edges);
         append(all_.long_edges, found.long_edges);
         append(all_.free_edges, found.free_edges);
-        // A tet of an earlier block may have asked for the vertex afterwards.
-        std::copy_if(
-            found.free.begin(), found.free.end(), std::back_inserter(all_.free),
-            [this](const FreeEntry& entry) { return first_[entry.vertex] == entry.place; });
+        found.free_before = free;
+        free += found.free.size();
     }
+    all_.free.resize(free);
+    for_blocks(workers, blocks, 1, [this](std::size_t begin, std::size_t end) {
+        for (const Findings& found : std::span(blocks_).subspan(begin, end - begin)) {
+            std::copy(found.free.begin(), found.free.end(),
+                      all_.free.begin() + static_cast<std::ptrdiff_t>(found.free_before));
+        }
+    });
 }
 
 void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {

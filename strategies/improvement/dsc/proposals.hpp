@@ -63,6 +63,7 @@ private:
         std::vector<Entry> low, small;
         std::vector<EdgeEntry> short_edges, long_edges, free_edges;
         std::vector<FreeEntry> free;
+        std::size_t free_before = 0;  // number of free entries of all earlier blocks
         void clear();
     };
 
@@ -70,7 +71,7 @@ private:
     void find_in(const repair::RepairRound& round, std::uint32_t place, Findings& out);
     void find_in_block(const repair::RepairRound& round, std::size_t begin, std::size_t end,
                        Findings& found);
-    void join(std::size_t blocks);
+    void join(std::size_t blocks, Workers* workers);
     void sort_out(const repair::RepairRound& round, Workers* workers);
     double small_volume_of(const repair::RepairRound& round, mesh::TetId t) const;
     static bool may_thin_out(const repair::RepairRound& round, mesh::TetId t);

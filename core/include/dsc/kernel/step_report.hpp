@@ -18,7 +18,10 @@ struct OperationCounts {
     std::uint64_t committed = 0;
     std::array<std::uint64_t, repair::refusal_count> refused{};
 
-    void add(repair::Outcome outcome);
+    void add(repair::Outcome outcome) {
+        ++tried;
+        ++(outcome.refused() ? refused[static_cast<std::size_t>(outcome.reason())] : committed);
+    }
     OperationCounts& operator+=(const OperationCounts& other);
 };
 using OperationTable = std::array<OperationCounts, repair::operation_count>;

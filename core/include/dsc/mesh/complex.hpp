@@ -224,6 +224,9 @@ public:
         for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w]);
     }
 
+    /// The neighbours as far as they are stored.
+    std::span<const VertexId> stored_neighbours(VertexId v) const { return stars_.neighbours(v); }
+
     // ---- walks ----------------------------------------------------------------------------------
     /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`.
     /// [parallel]
@@ -307,6 +310,10 @@ public:
     /// In unspecified order; may include dead ids. Empty before start_watch().
     std::span<const TetId> watched() const { return lists_.watched; }
 
+    /// The vertices whose shape_date() has advanced since the last call, each once; may include dead
+    /// ids. The list is not saved. [step]
+    void take_reshaped(std::vector<VertexId>& out);
+
     // ---- making and copying ---------------------------------------------------------------------
     /// Builds a complex from arrays that are already positive, conforming and box-filling (for
     /// files see adopt()).
@@ -344,6 +351,9 @@ private:
     TetId allocate_tet();
     void note_change(VertexId v, std::span<const TetId> star);
     void touch(TetId t);
+    void reshape(VertexId v) {
+        if (std::exchange(shapes_[v].date, clock_) <= reshaped_since_) reshaped_.push_back(v);
+    }
     void note(TetId t, std::uint32_t date, ChangeLists& lists) {
         const std::uint32_t before = std::exchange(tets_[t].date, date);
         if (before > taken_clock_) return;
@@ -382,6 +392,8 @@ private:
     std::uint32_t taken_clock_ = 0;    // clock when the change list was last taken; tets of a later
                                        // date are in the list
     std::uint32_t watched_since_ = 0;  // tets of this date or a later one are watched
+    std::vector<VertexId> reshaped_;
+    std::uint32_t reshaped_since_ = 0;  // vertices of a later shape date are in the list
     std::uint32_t clock_ = 0;
     std::uint32_t next_birth_ = 0;
     Box3 box_;

@@ -103,9 +103,10 @@ public:
                                        bool& known) const;
     /// Whether the view is the last one, and only positions have changed since then.
     bool only_moved(const mesh::Complex& complex, const SurfaceView& view) const;
-    /// Stores the faces of a view of this complex; vertex i leads `counts[i]` of them.
+    /// Stores the faces of a view of this complex; vertex i leads `counts[i]` of them. `workers` is
+    /// null for one thread.
     void keep(const mesh::Complex& complex, const SurfaceView& view,
-              std::span<const std::uint32_t> counts);
+              std::span<const std::uint32_t> counts, Workers* workers);
 
     /// Only positions have changed: the faces stay, up to now.
     void keep(const mesh::Complex& complex) { clock_ = complex.clock(); }
@@ -116,6 +117,7 @@ public:
         struct Block {
             mesh::StarWalk walk;
             std::vector<Face> faces;  ///< that the vertices of the block lead
+            std::size_t first = 0;    ///< index of the first of them in the view
         };
         std::vector<std::uint64_t> keys;  ///< birth and number of each interface vertex
         std::vector<Block> blocks;
