@@ -75,14 +75,18 @@ void StarLoop::find_leaves(std::span<const mesh::VertexId> vertices, Workers& wo
     std::atomic<bool> some_new{false};
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
-            leaf_of_[turn] = known_of(vertices[turn]) & leaf_bits;
+            const std::atomic_ref known(known_of_vertex_[vertices[turn]]);
+            const std::uint8_t byte = known.load(std::memory_order_relaxed);
+            leaf_of_[turn] = byte & leaf_bits;
+            known.store(byte | listed_bit, std::memory_order_relaxed);
             if (leaf_of_[turn] == no_leaf) some_new.store(true, std::memory_order_relaxed);
         }
     });
     if (!some_new) return;
     for (std::size_t turn = 0; turn < vertices.size(); ++turn) {
         if (leaf_of_[turn] != no_leaf) continue;
-        leaf_of_[turn] = known_of_vertex_[vertices[turn]] = leaf_of_new(vertices[turn]);
+        leaf_of_[turn] = leaf_of_new(vertices[turn]);
+        known_of_vertex_[vertices[turn]] = leaf_of_[turn] | listed_bit;
     }
 }
 
@@ -110,6 +114,14 @@ void StarLoop::fill_blocks(Workers& workers) {
         for (std::size_t turn = begin; turn < end; ++turn) {
             const std::size_t b = leaf_of_[turn] >> coarser_;
             blocks_[b].items[at[b]++] = {static_cast<std::uint32_t>(turn)};
+        }
+    });
+}
+
+void StarLoop::date_others(Workers& workers) {
+    workers.for_blocks(most_blocks, 1, [this](std::size_t begin, std::size_t end) {
+        for (const Block& block : std::span(blocks_).subspan(begin, end - begin)) {
+            for (const Date& date : block.dates) complex_.raise_date(date.vertex, date.date);
         }
     });
 }
@@ -164,8 +176,12 @@ bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& wor
 
 void StarLoop::forget(std::span<const mesh::VertexId> vertices, Workers& workers) {
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
-        for (const mesh::VertexId v : vertices.subspan(begin, end - begin))
+        for (const mesh::VertexId v : vertices.subspan(begin, end - begin)) {
             std::atomic_ref(turn_of_vertex_[v]).store(no_turn, std::memory_order_relaxed);
+            const std::atomic_ref known(known_of_vertex_[v]);
+            known.store(known.load(std::memory_order_relaxed) & (leaf_bits | inner_bit),
+                        std::memory_order_relaxed);
+        }
     });
 }
 
@@ -196,6 +212,7 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     for (Block& block : blocks_) {
         block.changes.changed.clear();
         block.changes.watched.clear();
+        block.dates.clear();
         block.next = 0;
         block.prepared = false;
         block.waits_for = no_wait;

@@ -79,11 +79,11 @@ private:
     static constexpr unsigned most_levels = 4;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_turn = 0xffffffffU;
-    // The byte of a vertex contains its leaf of the tree, and a bit that is set if the vertex is
-    // known to be inner. A vertex keeps its first leaf until the planes are made again, and the bit
-    // until its shape changes.
+    // The byte of a vertex contains its leaf of the tree, a bit that is set if the vertex is known
+    // to be inner, and one that is set if it is in the list. A vertex keeps its first leaf until
+    // the planes are made again, and the bit of inner vertices until its shape changes.
     static constexpr std::uint8_t no_leaf = most_blocks, leaf_bits = 2 * most_blocks - 1,
-                                  inner_bit = 0x80;
+                                  listed_bit = 0x40, inner_bit = 0x80;
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
                                                                    // asked for data
 
@@ -91,6 +91,11 @@ private:
     struct Item {
         std::uint32_t turn;
         std::uint32_t changes = 0;  // how many tets its move put on the list of the block
+    };
+
+    struct Date {
+        mesh::VertexId vertex;
+        std::uint32_t date;
     };
 
     // On cache lines of its own. What a thread finds out about the items lies here, too, so that
@@ -103,6 +108,7 @@ private:
         bool prepared = false;      // scratch has the star and the neighbours of the next
         std::vector<Item> items;    // in the order of their turns
         mesh::ChangeLists changes;  // by the moves, in their order
+        std::vector<Date> dates;    // that vertices of other blocks get after the loop
         StarScratch scratch;
 
         bool take() { return !taken.exchange(true, std::memory_order_acquire); }
@@ -168,7 +174,7 @@ private:
     }
     // Whether the neighbours that come earlier have been processed.
     bool is_free(Block& block, mesh::VertexId v, std::uint32_t turn) {
-        const std::uint8_t own = known_of(v) & leaf_bits;
+        const std::uint8_t known = known_of(v), own = known & leaf_bits;
         bool inner = true;
         for (const mesh::VertexId w : block.scratch.star.neighbours) {
             const std::uint8_t leaf = leaf_in(w, own);
@@ -184,7 +190,7 @@ private:
         }
         if (inner) {
             std::atomic_ref(known_of_vertex_[v])
-                .store(static_cast<std::uint8_t>(own | inner_bit), std::memory_order_relaxed);
+                .store(static_cast<std::uint8_t>(known | inner_bit), std::memory_order_relaxed);
         }
         return true;
     }
@@ -285,10 +291,12 @@ private:
     // What follows in the order of the list.
     template <class Action>
     void settle(Action& action, Workers& workers) {
+        date_others(workers);
         list_changes(workers);
         for (std::uint32_t turn = 0; turn < leaf_of_.size(); ++turn)
             action.settle(turn, date_of(turn));
     }
+    void date_others(Workers& workers);
     void list_changes(Workers& workers);
 
     template <class Action>
@@ -300,8 +308,25 @@ private:
         complex_.place(v, scratch.place, scratch.star.tets, scratch.qualities);
         const std::size_t before = block.changes.changed.size();
         complex_.date_move(v, scratch.star, date_of(item.turn), block.changes,
-                           [this](mesh::VertexId w) { return is_inner(w); });
+                           [&](mesh::VertexId w) {
+                               return dating(block, v, w, date_of(item.turn));
+                           });
         item.changes = static_cast<std::uint32_t>(block.changes.changed.size() - before);
+    }
+
+    // How vertex w gets the date of a move of v in a block. Both have leaves. A vertex that is not
+    // in the list is dated in its own block at once. The others keep the date until the loop ends,
+    // because nobody asks for it before.
+    mesh::Complex::Dating dating(Block& block, mesh::VertexId v, mesh::VertexId w,
+                                 std::uint32_t date) {
+        using enum mesh::Complex::Dating;
+        const std::uint8_t known = known_of(w);
+        if ((known & inner_bit) != 0) return alone;
+        if ((known & listed_bit) != 0) return together;
+        const auto block_of = [this](std::uint8_t byte) { return (byte & leaf_bits) >> coarser_; };
+        if (block_of(known) == block_of(known_of(v))) return alone;
+        block.dates.push_back({w, date});
+        return later;
     }
 
     mesh::Complex& complex_;

@@ -218,7 +218,7 @@ public:
     /// The same for a star: first where it is stored, then its ids, then its tets and neighbours as
     /// far as they are stored. Each call needs what the one before has fetched.
     void prefetch_star_entry(VertexId v) const { stars_.prefetch(v); }
-    void prefetch_star(VertexId v) const { __builtin_prefetch(stars_.tets(v).data()); }
+    void prefetch_star(VertexId v) const { stars_.prefetch_ids(v); }
     void prefetch_star_tets(VertexId v) const {
         for (const TetId t : stars_.tets(v)) prefetch(t);
         for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w]);
@@ -277,10 +277,23 @@ public:
     /// watched tets, and advance_clock() goes to a time that is not before the last move [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
-    /// `alone(w)`: whether no other thread can date a move round neighbour w meanwhile.
-    template <class Alone>
+    /// `dating(w)`: how v or a neighbour gets the date.
+    enum class Dating : std::uint8_t {
+        alone,     ///< no other thread can date a move round w meanwhile
+        together,  ///< another thread may do so
+        later      ///< the caller calls raise_date() after the loop; nobody asks for the date before
+    };
+    template <class HowToDate>
     void date_move(VertexId v, const Star& star, std::uint32_t date, ChangeLists& changes,
-                   const Alone& alone);
+                   const HowToDate& dating);
+    /// The date of v becomes `date` if it is earlier. [parallel]
+    void raise_date(VertexId v, std::uint32_t date) {
+        const std::atomic_ref<std::uint32_t> latest(vertices_[v].date);
+        std::uint32_t known = latest.load(std::memory_order_relaxed);
+        while (known < date &&
+               !latest.compare_exchange_weak(known, date, std::memory_order_relaxed)) {
+        }
+    }
     std::span<TetId> add_changes(std::size_t count) {
         lists_.changed.resize(lists_.changed.size() + count);
         return std::span(lists_.changed).last(count);
@@ -408,21 +421,15 @@ private:
     mutable std::uint32_t face_stamp_ = 0;
 };
 
-template <class Alone>
+template <class HowToDate>
 void Complex::date_move(VertexId v, const Star& star, std::uint32_t date, ChangeLists& changes,
-                        const Alone& alone) {
+                        const HowToDate& dating) {
     for (const TetId t : star.tets) note(t, date, changes);
-    const auto raise = [this, date, &alone](VertexId w) {
-        std::uint32_t& own = vertices_[w].date;
-        if (alone(w)) {
-            own = date;
-            return;
-        }
-        // Two threads may date the same vertex, if it lies between the vertices that they move.
-        const std::atomic_ref<std::uint32_t> latest(own);
-        std::uint32_t known = latest.load(std::memory_order_relaxed);
-        while (known < date &&
-               !latest.compare_exchange_weak(known, date, std::memory_order_relaxed)) {
+    const auto raise = [this, date, &dating](VertexId w) {
+        switch (dating(w)) {
+            case Dating::alone: vertices_[w].date = date; break;
+            case Dating::together: raise_date(w, date); break;
+            case Dating::later: break;
         }
     };
     raise(v);
