@@ -51,8 +51,8 @@ public:
 
     // Must come before everything that reads the stars.
     void walk() {
-        own_.a.star = c_.cached_star(a_, own_.a.walk).tets;
-        own_.b.star = c_.cached_star(b_, own_.b.walk).tets;
+        own_.a.star = bench_.star_of(a_, own_.a.walk);
+        own_.b.star = bench_.star_of(b_, own_.b.walk);
     }
 
     float least_quality_of_stars() const {
@@ -218,13 +218,20 @@ Outcome finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool inte
     return success;
 }
 
-}  // namespace
-
-Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode,
-                      float accept_above) {
-    mesh::Complex& c = bench.complex;
-    // Only an edge with both ends on the box or on the interface can lie there.
+// The collapse of edge (a, b) that is best by quality, and what it depends on.
+struct Choice {
+    Plan best;
     bool interface_edge = false;
+    bool a_moves = false, b_moves = false;
+    float old = 1.0F, must_exceed = 0.0F;  // least qualities
+};
+
+// Reads the stars of a and b only.
+Outcome choose(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode,
+               float accept_above, Choice& choice) {
+    const mesh::Complex& c = bench.complex;
+    // Only an edge with both ends on the box or on the interface can lie there.
+    bool& interface_edge = choice.interface_edge;
     if ((c.on_box(a) && c.on_box(b)) || (c.on_interface(a) && c.on_interface(b))) {
         mesh::EdgeRing& ring = bench.collapse.get().ring;
         c.ring(t, a, b, ring);
@@ -239,18 +246,18 @@ Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     // In safe mode the interface may be edited only if it is flat round the vertex that leaves its
     // place.
     const bool shape_matters = interface_edge && mode == CollapseMode::safe;
-    const bool a_moves = a_goes && (!shape_matters || bench.flat(a));
-    const bool b_moves = b_goes && (!shape_matters || bench.flat(b));
+    const bool a_moves = choice.a_moves = a_goes && (!shape_matters || bench.flat(a));
+    const bool b_moves = choice.b_moves = b_goes && (!shape_matters || bench.flat(b));
     if (!a_moves && !b_moves) return Refusal::bound;
     collapse.walk();
 
-    const float old = collapse.least_quality_of_stars();
-    const float must_exceed = std::min(old, accept_above);
-    Plan best;
+    choice.old = collapse.least_quality_of_stars();
+    choice.must_exceed = std::min(choice.old, accept_above);
+    Plan& best = choice.best;
     const auto offer = [&](VertexId kept, VertexId removed, double weight, const Vec3& place,
                            bool moves_a, bool moves_b) {
         const float least =
-            collapse.least(place, moves_a, moves_b, std::max(must_exceed, best.least));
+            collapse.least(place, moves_a, moves_b, std::max(choice.must_exceed, best.least));
         if (least > best.least) best = {kept, removed, weight, least};
     };
     if (a_moves) offer(b, a, 0.0, c.position(b), true, false);
@@ -259,8 +266,24 @@ Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     if (a_moves && b_moves && (interface_edge || interior_pair)) {
         offer(a, b, 0.5, 0.5 * (c.position(a) + c.position(b)), true, true);
     }
-    if (best.kept == mesh::none) return Refusal::quality;
+    return best.kept == mesh::none ? Outcome(Refusal::quality) : success;
+}
 
+}  // namespace
+
+Outcome may_collapse(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode,
+                     float accept_above) {
+    Choice choice;
+    return choose(bench, t, a, b, mode, accept_above, choice);
+}
+
+Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode,
+                      float accept_above) {
+    Choice choice;
+    if (const Outcome o = choose(bench, t, a, b, mode, accept_above, choice); o.refused()) return o;
+    const auto& [best, interface_edge, a_moves, b_moves, old, must_exceed] = choice;
+    const mesh::Complex& c = bench.complex;
+    Collapse collapse(bench, a, b, interface_edge);
     const Outcome result = finish(bench, collapse, best, interface_edge, must_exceed, old);
     if (result != Refusal::bound || !interface_edge || !bench.limits.keeps_creases()) return result;
     // Also with exchanged ends, or into the end that lies on a crease.

@@ -16,6 +16,7 @@ Deformer::State::State(mesh::Complex start, const DeformerOptions& wanted, Worke
       star_loop(complex),
       destinations(complex, queues, star_loop),
       fields(complex, destinations),
+      foresights(bench),
       // Wake-ups must be counted in the order of one thread.
       workers(wanted.drop_wake_up == 0 ? given : nullptr) {
     bench.listener = &fields;

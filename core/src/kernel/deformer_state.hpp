@@ -5,6 +5,7 @@
 #include <dsc/mesh/validate.hpp>
 
 #include "kernel/destinations.hpp"
+#include "kernel/foresights.hpp"
 #include "kernel/operations.hpp"
 #include "kernel/queues.hpp"
 #include "kernel/topology.hpp"
@@ -27,6 +28,7 @@ struct Deformer::State {
     StarLoop star_loop;
     Destinations destinations;
     VertexFields fields;
+    Foresights foresights;
     Workers* workers;  // null: one thread
 
     std::vector<repair::Request> requests, last_requests;

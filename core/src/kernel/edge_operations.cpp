@@ -79,10 +79,16 @@ void add_tets(Workbench& bench, VertexId a, VertexId b, const Fan& fan) {
     }
 }
 
-}  // namespace
+// The removal of an edge that is best by quality.
+struct Removal {
+    Fan fan;
+    float old = 1.0F, must_exceed = 0.0F;  // least qualities
+};
 
-Outcome remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above) {
-    mesh::Complex& c = bench.complex;
+// Reads the stars of a and b only.
+Outcome choose(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above,
+               Removal& removal) {
+    const mesh::Complex& c = bench.complex;
     mesh::EdgeRing& ring = bench.edge.get().ring;
     // An edge with an end inside the box cannot be on the box. Most edges have another label or too
     // many tets round them, which shows before the whole ring is known.
@@ -91,16 +97,29 @@ Outcome remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float acc
         if (!ring.closed) return Refusal::box;
     }
     if (!c.inner_ring(t, a, b, max_polygon, ring)) return Refusal::not_applicable;
-    float old = 1.0F;
-    for (const TetId r : ring.tets) old = std::min(old, c.quality(r));
+    for (const TetId r : ring.tets) removal.old = std::min(removal.old, c.quality(r));
+    removal.must_exceed = std::min(removal.old, accept_above);
+    removal.fan = {ring.link, c.label(t)};
+    return triangulate(c, a, b, removal.must_exceed, removal.fan) ? success
+                                                                  : Outcome(Refusal::quality);
+}
+
+}  // namespace
+
+Outcome may_remove(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above) {
+    Removal removal;
+    return choose(bench, t, a, b, accept_above, removal);
+}
+
+Outcome remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above) {
+    Removal removal;
+    if (const Outcome o = choose(bench, t, a, b, accept_above, removal); o.refused()) return o;
     bench.edit.clear();
-    const float must_exceed = std::min(old, accept_above);
-    Fan fan{ring.link, c.label(t)};
-    if (!triangulate(c, a, b, must_exceed, fan)) return Refusal::quality;
-    bench.edit.removed = ring.tets;
-    add_tets(bench, a, b, fan);
-    if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
-    if (!c.link(bench.edit)) return Refusal::irregular;
+    bench.edit.removed = bench.edge.get().ring.tets;
+    add_tets(bench, a, b, removal.fan);
+    if (const Outcome o = bench.check_shape(removal.must_exceed, removal.old); o.refused())
+        return o;
+    if (!bench.complex.link(bench.edit)) return Refusal::irregular;
     bench.commit();
     return success;
 }

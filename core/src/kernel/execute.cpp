@@ -48,33 +48,35 @@ Refusal stronger(Outcome x, Outcome y) {
     return rank(x.reason()) >= rank(y.reason()) ? x.reason() : y.reason();
 }
 
+// `known`: the first edges are refused.
 template <class Attempt>
-Outcome first_success(const std::array<Edge, 6>& edges, Attempt&& attempt) {
-    Refusal result = Refusal::not_applicable;
-    for (const Edge& e : edges) {
-        const Outcome o = attempt(e);
+Outcome first_success(const std::array<Edge, 6>& edges, const Foresight& known,
+                      Attempt&& attempt) {
+    Refusal result = known.reason;
+    for (std::size_t i = known.edges; i < edges.size(); ++i) {
+        const Outcome o = attempt(edges[i]);
         if (!o.refused()) return o;
         result = stronger(result, o);
     }
     return result;
 }
 
-Outcome on_edges(Workbench& bench, const Request& request, TetId t) {
+Outcome on_edges(Workbench& bench, const Request& request, TetId t, const Foresight& known) {
     const mesh::Complex& c = bench.complex;
     auto edges = edges_of(c, t);
     switch (request.operation) {
         case Operation::edge_removal:
-            return first_success(edges, [&](const Edge& e) {
+            return first_success(edges, known, [&](const Edge& e) {
                 return remove_edge(bench, t, e.a, e.b, request.accept_above);
             });
         case Operation::interface_flip:
-            return first_success(edges, [&](const Edge& e) -> Outcome {
+            return first_success(edges, known, [&](const Edge& e) -> Outcome {
                 if (!c.on_interface(e.a) || !c.on_interface(e.b)) return Refusal::not_applicable;
                 return flip_interface_edge(bench, t, e.a, e.b, request.accept_above);
             });
         case Operation::edge_collapse:
             sort_by_length(edges);
-            return first_success(edges, [&](const Edge& e) {
+            return first_success(edges, known, [&](const Edge& e) {
                 return collapse_edge(bench, t, e.a, e.b, request.mode, request.accept_above);
             });
         default: {
@@ -117,6 +119,13 @@ Outcome on_faces(Workbench& bench, const Request& request, TetId t) {
     return result;
 }
 
+// Whether the request names a tet that no longer exists or no longer needs it.
+bool is_stale(const mesh::Complex& c, const Request& request) {
+    const TetId t = request.tet;
+    return t >= c.tet_slots() || !c.tet_alive(t) || c.birth_date(t) != request.birth_date ||
+           !(c.quality(t) < request.only_below);
+}
+
 // A tet for a request that names only vertices.
 TetId tet_of(const mesh::Complex& c, const Request& request) {
     const VertexId a = request.vertices[0], b = request.vertices[1];
@@ -128,13 +137,32 @@ TetId tet_of(const mesh::Complex& c, const Request& request) {
 
 }  // namespace
 
-Outcome execute(Workbench& bench, const Request& request) {
+Foresight foresee(Workbench& bench, const Request& request) {
+    const mesh::Complex& c = bench.complex;
+    const TetId t = request.tet;
+    const bool removes = request.operation == Operation::edge_removal;
+    if ((!removes && request.operation != Operation::edge_collapse) ||
+        request.vertices[0] != mesh::none || t == mesh::none || is_stale(c, request))
+        return {};
+    auto edges = edges_of(c, t);
+    if (!removes) sort_by_length(edges);
+    Foresight known;
+    for (const Edge& e : edges) {
+        const Outcome o =
+            removes ? may_remove(bench, t, e.a, e.b, request.accept_above)
+                    : may_collapse(bench, t, e.a, e.b, request.mode, request.accept_above);
+        if (!o.refused()) break;
+        known.reason = stronger(known.reason, o);
+        ++known.edges;
+    }
+    return known;
+}
+
+Outcome execute(Workbench& bench, const Request& request, const Foresight& known) {
     const mesh::Complex& c = bench.complex;
     TetId t = request.tet;
     if (t != mesh::none) {
-        if (t >= c.tet_slots() || !c.tet_alive(t) || c.birth_date(t) != request.birth_date)
-            return Refusal::stale;
-        if (!(c.quality(t) < request.only_below)) return Refusal::stale;
+        if (is_stale(c, request)) return Refusal::stale;
     } else {
         t = tet_of(c, request);
         if (t == mesh::none) return Refusal::stale;
@@ -158,16 +186,16 @@ Outcome execute(Workbench& bench, const Request& request) {
         case Operation::face_split: return on_faces(bench, request, t);
         case Operation::edge_removal:
             return edge ? remove_edge(bench, t, a, b, request.accept_above)
-                        : on_edges(bench, request, t);
+                        : on_edges(bench, request, t, known);
         case Operation::interface_flip:
             return edge ? flip_interface_edge(bench, t, a, b, request.accept_above)
-                        : on_edges(bench, request, t);
+                        : on_edges(bench, request, t, known);
         case Operation::edge_split:
             return edge ? split_edge(bench, t, a, b, static_cast<double>(request.parameter))
-                        : on_edges(bench, request, t);
+                        : on_edges(bench, request, t, known);
         case Operation::edge_collapse:
             return edge ? collapse_edge(bench, t, a, b, request.mode, request.accept_above)
-                        : on_edges(bench, request, t);
+                        : on_edges(bench, request, t, known);
     }
     return Refusal::not_applicable;
 }

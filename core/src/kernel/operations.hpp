@@ -12,6 +12,9 @@ namespace dsc::kernel {
 /// Interior edge (a, b) of tet t: the ring's best triangulation, rings of 3 to 7 [Freitag1997]
 /// (section 4.3).
 Outcome remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above);
+/// Whether remove_edge() would find a triangulation, or why not. A refusal holds as long as the stars
+/// of a and b do not change. [parallel] with a bench that looks only.
+Outcome may_remove(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above);
 /// Interface edge (a, b): the other diagonal of its two interface faces; the tets of both labels at
 /// the edge are re-triangulated (section 4.5).
 Outcome flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above);
@@ -26,6 +29,9 @@ Outcome split_vertex(Workbench& bench, VertexId v, VertexId w);
 /// Collapses edge (a, b) of tet t (section 4.7).
 Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, repair::CollapseMode mode,
                       float accept_above);
+/// The same for collapse_edge(): whether there is a place of sufficient quality.
+Outcome may_collapse(Workbench& bench, TetId t, VertexId a, VertexId b, repair::CollapseMode mode,
+                     float accept_above);
 /// Collapses the interface edge (kept, removed) of tet t into one vertex at `place`, within the
 /// edit bounds and above the quality floor. A kept vertex that may not move stays at its place
 /// (section 4.7).
@@ -49,7 +55,16 @@ Outcome relabel_tet(Workbench& bench, TetId t);
 /// be above min(gain * old least, accept_above).
 Outcome compound(Workbench& bench, TetId t, const repair::Request& request);
 
+/// What is certain of a request that names no simplex, before its turn: as long as the stars of its
+/// tet do not change, execute() will refuse the first `edges` that it tries.
+struct Foresight {
+    std::uint8_t edges = 0;
+    Refusal reason = Refusal::not_applicable;  ///< the strongest of the reasons
+};
+/// Tries the edges of an edge removal or collapse up to the first that may succeed. Nothing is
+/// certain of other requests. [parallel] with a bench that looks only.
+Foresight foresee(Workbench& bench, const repair::Request& request);
 /// Executes a request and chooses the simplex if the request names none (section 6.1).
-Outcome execute(Workbench& bench, const repair::Request& request);
+Outcome execute(Workbench& bench, const repair::Request& request, const Foresight& known = {});
 
 }  // namespace dsc::kernel

@@ -142,11 +142,12 @@ void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool se
                                                      : std::span<const double>()},
         requests);
     outcomes.resize(requests.size());
+    foresights.start(requests, workers);
     for (std::size_t i = 0; i < requests.size();) {
         const std::size_t done = smooth_from(i, report);
         i += done;
         if (done > 0) continue;
-        const Outcome outcome = execute(bench, requests[i]);
+        const Outcome outcome = execute(bench, requests[i], foresights.of(i));
         record(static_cast<std::uint32_t>(i), outcome, complex.clock(), report);
         ++i;
     }

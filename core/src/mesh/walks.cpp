@@ -89,6 +89,12 @@ Star Complex::cached_star(VertexId v, StarWalk& walk) const {
     return {stars_.tets(v), stars_.neighbours(v)};
 }
 
+std::span<const TetId> Complex::unstored_star(VertexId v, StarWalk& walk) const {
+    if (const std::span<const TetId> known = stars_.tets(v); !known.empty()) return known;
+    walk_star(v, walk.tets, walk.places);
+    return walk.tets;
+}
+
 // `codes` are those of walk_codes(). Each tet has one corner that the tet before it on the walk
 // does not have: the one opposite the face through which it was reached.
 void Complex::find_neighbours(VertexId v, std::span<const std::uint32_t> codes,

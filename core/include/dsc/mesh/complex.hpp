@@ -237,6 +237,9 @@ public:
     /// there are very many. They stay there until the next call for the same vertex or with the
     /// same `walk`. [parallel] if no two threads ask for the same vertex.
     Star cached_star(VertexId v, StarWalk& walk) const;
+    /// The tets of the star from the cache, or of a new walk, which is not stored. They stay until
+    /// the next call with the same `walk`. [parallel] while nobody writes to the cache.
+    std::span<const TetId> unstored_star(VertexId v, StarWalk& walk) const;
     /// The place in v's star of the tet that refused a move of v last. It is only a hint where to
     /// look first: it may be any number, and nothing may depend on it but the time. [parallel] as
     /// cached_star().

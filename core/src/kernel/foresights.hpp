@@ -1,0 +1,43 @@
+#pragma once
+// Judges repair requests on several threads before their turn. A refusal that is certain then need
+// not be found again in the order of the list (method.md, section 10).
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <dsc/base/workers.hpp>
+
+#include "kernel/operations.hpp"
+
+namespace dsc::kernel {
+
+class Foresights {
+public:
+    /// The bench that will execute the requests.
+    explicit Foresights(const Workbench& bench) : bench_(bench) {}
+
+    /// Begins with a list of requests, which must stay as it is. `workers`: null for one thread,
+    /// which foresees nothing. [step]
+    void start(std::span<const repair::Request> requests, Workers* workers);
+    /// What is certain of request i now. Call it in ascending order, before the request is
+    /// executed. [step]
+    Foresight of(std::size_t i);
+
+private:
+    static constexpr std::size_t most = 512, block = 32;  // requests that are judged together, and
+                                                          // by one thread
+    bool holds(const repair::Request& request) const;
+    void look(std::size_t first);
+
+    const Workbench& bench_;
+    std::span<const repair::Request> requests_;
+    Workers* workers_ = nullptr;
+    std::vector<std::unique_ptr<Workbench>> judges_;  // per block
+    std::vector<Foresight> foresights_;               // from request first_ on
+    std::size_t first_ = 0;
+    std::uint32_t date_ = 0;  // the change clock when they were judged
+};
+
+}  // namespace dsc::kernel
