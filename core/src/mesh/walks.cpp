@@ -106,10 +106,12 @@ void Complex::find_neighbours(VertexId v, std::span<const std::uint32_t> codes,
         if (w == v) continue;
         seen.insert(w);
         out[count++] = w;
+        __builtin_prefetch(&births_[w]);
     }
     // As in walk_codes().
     for (const std::uint32_t code : codes.subspan(1)) {
         out[count] = tets_[neighbour_tet(code)].v[neighbour_face(code)];
+        __builtin_prefetch(&births_[out[count]]);
         count += seen.insert(out[count]) ? 1 : 0;
     }
     out.resize(count);

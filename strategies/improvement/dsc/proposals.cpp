@@ -207,9 +207,12 @@ void Proposals::find_in_block(const repair::RepairRound& round, std::size_t begi
                               Findings& found) {
     found.clear();
     // Of the tets at faces look() reads the neighbours.
-    const auto may_have_face = [&round](mesh::TetId t) {
+    const auto may_have_face = [this, &round](mesh::TetId t) {
         const mesh::Complex& c = round.complex;
         const auto& v = c.tet(t).v;
+        if (static_cast<double>(c.quality(t)) < limits_.smooth_below) {
+            for (const mesh::VertexId x : v) __builtin_prefetch(&first_[x]);
+        }
         return c.on_interface(v[0]) + c.on_interface(v[1]) + c.on_interface(v[2]) +
                    c.on_interface(v[3]) >=
                3;

@@ -195,8 +195,8 @@ public:
     }
     double volume(TetId t) const;
     /// Whether a loop over many tets in no order of memory waits for the memory, so that it pays to
-    /// ask for data ahead. Smaller complexes lie in the caches.
-    bool exceeds_caches() const { return tets_.size() >= 400'000; }
+    /// ask for data ahead. Smaller complexes lie in the near caches.
+    bool exceeds_caches() const { return tets_.size() >= 30'000; }
     /// Asks the memory for a tet that will be read soon, or for the vertices of one that is there
     /// already.
     void prefetch(TetId t) const { __builtin_prefetch(&tets_[t]); }

@@ -12,8 +12,9 @@ namespace dsc::mesh {
 
 /// Calls visit(i) for each tets[i], in this order. Some visits before that it asks the memory for
 /// the tet, then for its vertices, and then, if looks_across(tet) is true, for what lies across its
-/// faces. looks_across() is asked once per live tet, may read the vertices, and must not be
-/// expensive. Nothing depends on its answer but the time. [parallel]
+/// faces. looks_across() is asked once per live tet. It may read the vertices, may ask the memory
+/// for other data of the visit, and must not be expensive; nothing depends on it but the time.
+/// [parallel]
 template <class LooksAcross, class Visit>
 void visit_tets(const Complex& complex, std::span<const TetId> tets,
                 const LooksAcross& looks_across, const Visit& visit) {
