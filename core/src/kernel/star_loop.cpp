@@ -78,7 +78,8 @@ void StarLoop::find_leaves(std::span<const mesh::VertexId> vertices, Workers& wo
             const std::atomic_ref known(known_of_vertex_[vertices[turn]]);
             const std::uint8_t byte = known.load(std::memory_order_relaxed);
             leaf_of_[turn] = byte & leaf_bits;
-            known.store(byte | listed_bit, std::memory_order_relaxed);
+            if ((byte & listed_bit) == 0)
+                known.store(byte | listed_bit, std::memory_order_relaxed);
             if (leaf_of_[turn] == no_leaf) some_new.store(true, std::memory_order_relaxed);
         }
     });
@@ -159,30 +160,18 @@ void StarLoop::list_changes(Workers& workers) {
     for (const Block& block : blocks_) complex_.add_watched(block.changes.watched);
 }
 
-// Writes turn_of_vertex_; false if a vertex occurs twice, and so has two turns.
+// Writes date_of_vertex_; false if a vertex occurs twice, and so has two turns.
 bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& workers) {
     std::atomic<bool> twice{false};
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
-            if (turn + ahead < end) __builtin_prefetch(&turn_of_vertex_[vertices[turn + ahead]], 1);
-            const std::atomic_ref known(turn_of_vertex_[vertices[turn]]);
-            if (known.exchange(static_cast<std::uint32_t>(turn), std::memory_order_relaxed) !=
-                no_turn)
+            if (turn + ahead < end) __builtin_prefetch(&date_of_vertex_[vertices[turn + ahead]], 1);
+            const std::atomic_ref date(date_of_vertex_[vertices[turn]]);
+            if (date.exchange(date_of(turn), std::memory_order_relaxed) > start_)
                 twice.store(true, std::memory_order_relaxed);
         }
     });
     return !twice;
-}
-
-void StarLoop::forget(std::span<const mesh::VertexId> vertices, Workers& workers) {
-    workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
-        for (const mesh::VertexId v : vertices.subspan(begin, end - begin)) {
-            std::atomic_ref(turn_of_vertex_[v]).store(no_turn, std::memory_order_relaxed);
-            const std::atomic_ref known(known_of_vertex_[v]);
-            known.store(known.load(std::memory_order_relaxed) & (leaf_bits | inner_bit),
-                        std::memory_order_relaxed);
-        }
-    });
 }
 
 // False if the items cannot be divided.
@@ -191,14 +180,11 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     unsigned levels = 1;
     while (levels < most_levels && vertices.size() >> (levels + 1) >= least_block) ++levels;
     coarser_ = most_levels - levels;
-    if (turn_of_vertex_.size() < complex_.vertex_slots()) {
+    if (date_of_vertex_.size() < complex_.vertex_slots()) {
         known_of_vertex_.resize(complex_.vertex_slots(), no_leaf);
-        turn_of_vertex_.resize(complex_.vertex_slots(), no_turn);
+        date_of_vertex_.resize(complex_.vertex_slots(), 0);
     }
-    if (!take_turns(vertices, workers)) {
-        forget(vertices, workers);
-        return false;
-    }
+    if (!take_turns(vertices, workers)) return false;
     complex_.take_reshaped(reshaped_);
     for (const mesh::VertexId v : reshaped_) known_of_vertex_[v] &= leaf_bits;
     const bool is_new = loops_++ % most_loops == 0;

@@ -60,30 +60,33 @@ public:
             complex_.advance_clock(date_of(vertices.size()) - 1);
             return;
         }
-        struct Forget {
-            StarLoop& loop;
-            std::span<const mesh::VertexId> vertices;
-            Workers& workers;
-            ~Forget() { loop.forget(vertices, workers); }
-        } const forget{*this, vertices, *workers};
-        const std::size_t threads = workers->threads();
-        const auto body = [&](std::size_t thread, std::size_t) {
-            work(vertices, action, {thread, threads});
-        };
-        workers->for_blocks(threads, 1, body);
-        complex_.advance_clock(date_of(vertices.size()) - 1);
+        {
+            // Also after an exception, so that the dates of these turns are in the past.
+            struct Advance {
+                StarLoop& loop;
+                std::size_t turns;
+                ~Advance() { loop.complex_.advance_clock(loop.date_of(turns) - 1); }
+            } const advance{*this, vertices.size()};
+            const std::size_t threads = workers->threads();
+            const auto body = [&](std::size_t thread, std::size_t) {
+                work(vertices, action, {thread, threads});
+            };
+            workers->for_blocks(threads, 1, body);
+        }
         settle(action, *workers);
     }
 
 private:
-    static constexpr unsigned most_levels = 4;  // of the tree that divides space
+    static constexpr unsigned most_levels = 5;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_turn = 0xffffffffU;
     // The byte of a vertex contains its leaf of the tree, a bit that is set if the vertex is known
-    // to be inner, and one that is set if it is in the list. A vertex keeps its first leaf until
-    // the planes are made again, and the bit of inner vertices until its shape changes.
+    // to be inner, and one that is set if it has been in a list. A vertex keeps its leaf and that
+    // bit until the planes are made again, and the bit of inner vertices until its shape changes:
+    // bytes that seldom change can lie in the caches of all cores.
     static constexpr std::uint8_t no_leaf = most_blocks, leaf_bits = 2 * most_blocks - 1,
                                   listed_bit = 0x40, inner_bit = 0x80;
+    static_assert(leaf_bits < listed_bit);
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
                                                                    // asked for data
 
@@ -150,7 +153,6 @@ private:
     void fill_blocks(Workers& workers);
     std::uint8_t leaf_of_new(mesh::VertexId v) const;
     bool take_turns(std::span<const mesh::VertexId> vertices, Workers& workers);
-    void forget(std::span<const mesh::VertexId> vertices, Workers& workers);
     bool is_balanced() const;
     std::uint8_t leaf_at(const Vec3& place) const;
     Offer farthest_behind(const Thread& thread) const;
@@ -182,8 +184,10 @@ private:
             inner = false;
             if (leaf >> coarser_ == own >> coarser_) continue;
             const auto other = static_cast<std::uint8_t>(leaf >> coarser_);
-            const std::uint32_t earlier = turn_of_vertex_[w];
-            if (earlier < turn && blocks_[other].turn.load(std::memory_order_acquire) <= earlier) {
+            const std::uint32_t date = date_of_vertex_[w];
+            if (date <= start_ || date >= date_of(turn)) continue;
+            const std::uint32_t earlier = date - date_of(0);
+            if (blocks_[other].turn.load(std::memory_order_acquire) <= earlier) {
                 block.waits_for.store(wait_for(other, earlier), std::memory_order_relaxed);
                 return false;
             }
@@ -314,9 +318,9 @@ private:
         item.changes = static_cast<std::uint32_t>(block.changes.changed.size() - before);
     }
 
-    // How vertex w gets the date of a move of v in a block. Both have leaves. A vertex that is not
-    // in the list is dated in its own block at once. The others keep the date until the loop ends,
-    // because nobody asks for it before.
+    // How vertex w gets the date of a move of v in a block. Both have leaves. Nobody asks for the
+    // date of a vertex that was never in the list before the loop ends, so its own block dates it at
+    // once, and the others keep the date until then.
     mesh::Complex::Dating dating(Block& block, mesh::VertexId v, mesh::VertexId w,
                                  std::uint32_t date) {
         using enum mesh::Complex::Dating;
@@ -340,7 +344,8 @@ private:
     std::array<Plane, most_blocks> planes_;  // of the tree; node i has the children 2 i and 2 i + 1
     std::vector<Vec3> samples_;
     std::vector<std::uint8_t> known_of_vertex_;  // leaf | inner_bit
-    std::vector<std::uint32_t> turn_of_vertex_;  // no_turn if it is not in the list
+    std::vector<std::uint32_t> date_of_vertex_;  // of its last turn; in the past if it is not in
+                                                 // the list
     std::vector<mesh::VertexId> reshaped_;       // since the last division
     std::vector<std::uint8_t> leaf_of_;          // per turn
     std::vector<BlockCounts> items_before_;      // per part of the list
