@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <boost/sort/spreadsort/integer_sort.hpp>
+
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/measure.hpp>
 
@@ -112,7 +114,7 @@ void list_vertices(const mesh::Complex& c, SurfaceView& view, Workers* workers,
         for (std::size_t i = begin; i < end; ++i)
             keys[i] = std::uint64_t{c.birth(interface[i])} << 32U | interface[i];
     });
-    std::sort(keys.begin(), keys.end());
+    boost::sort::spreadsort::integer_sort(keys.begin(), keys.end());
     view.vertex_ids.resize(n);
     view.births.resize(n);
     view.movable.resize(n);
