@@ -57,16 +57,16 @@ void StarLoop::make_planes(std::span<const mesh::VertexId> vertices) {
     for (std::size_t turn = 0; turn < vertices.size(); turn += stride)
         samples_.push_back(complex_.position(vertices[turn]));
     split(1, 0, samples_);
-    std::fill(known_of_vertex_.begin(), known_of_vertex_.end(), no_leaf);
+    complex_.clear_marks();
 }
 
 // The leaf of a neighbour, so that a shape that moves on takes its leaves along.
-std::uint8_t StarLoop::leaf_of_new(mesh::VertexId v) const {
+std::uint8_t StarLoop::leaf_of_new(mesh::VertexId v) {
     for (const mesh::VertexId w : complex_.tet(complex_.seed(v)).v) {
-        const std::uint8_t leaf = known_of_vertex_[w] & leaf_bits;
+        const std::uint8_t leaf = complex_.mark(w) & leaf_bits;
         if (leaf != no_leaf) return leaf;
     }
-    return leaf_at(complex_.position(v));
+    return leaf_at(complex_.position(v)) + 1;
 }
 
 // Writes leaf_of_, and the leaves of vertices that have none.
@@ -75,11 +75,11 @@ void StarLoop::find_leaves(std::span<const mesh::VertexId> vertices, Workers& wo
     std::atomic<bool> some_new{false};
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
-            const std::atomic_ref known(known_of_vertex_[vertices[turn]]);
-            const std::uint8_t byte = known.load(std::memory_order_relaxed);
-            leaf_of_[turn] = byte & leaf_bits;
-            if ((byte & listed_bit) == 0)
-                known.store(byte | listed_bit, std::memory_order_relaxed);
+            if (turn + ahead < end) complex_.prefetch_vertex(vertices[turn + ahead]);
+            const std::atomic_ref mark(complex_.mark(vertices[turn]));
+            const std::uint8_t known = mark.load(std::memory_order_relaxed);
+            leaf_of_[turn] = known & leaf_bits;
+            if ((known & listed_bit) == 0) mark.store(known | listed_bit, std::memory_order_relaxed);
             if (leaf_of_[turn] == no_leaf) some_new.store(true, std::memory_order_relaxed);
         }
     });
@@ -87,24 +87,24 @@ void StarLoop::find_leaves(std::span<const mesh::VertexId> vertices, Workers& wo
     for (std::size_t turn = 0; turn < vertices.size(); ++turn) {
         if (leaf_of_[turn] != no_leaf) continue;
         leaf_of_[turn] = leaf_of_new(vertices[turn]);
-        known_of_vertex_[vertices[turn]] = leaf_of_[turn] | listed_bit;
+        complex_.mark(vertices[turn]) = leaf_of_[turn] | listed_bit;
     }
 }
 
 // Whether no block has many times the average number of items.
 bool StarLoop::is_balanced() const {
     BlockCounts count{};
-    for (const std::uint8_t leaf : leaf_of_) ++count[leaf >> coarser_];
+    for (const std::uint8_t leaf : leaf_of_) ++count[block_of(leaf)];
     return *std::max_element(count.begin(), count.end()) <=
            3 * leaf_of_.size() / (most_blocks >> coarser_) + least_block;
 }
 
 // The items of the blocks, in the order of their turns.
 void StarLoop::fill_blocks(Workers& workers) {
-    items_before_.assign((leaf_of_.size() + part - 1) / part, BlockCounts{});
+    items_before_.assign(parts(), BlockCounts{});
     workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
         BlockCounts count{};
-        for (std::size_t turn = begin; turn < end; ++turn) ++count[leaf_of_[turn] >> coarser_];
+        for (std::size_t turn = begin; turn < end; ++turn) ++count[block_of(leaf_of_[turn])];
         items_before_[begin / part] = count;
     });
     BlockCounts total{};
@@ -113,30 +113,29 @@ void StarLoop::fill_blocks(Workers& workers) {
     workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
         BlockCounts at = items_before_[begin / part];
         for (std::size_t turn = begin; turn < end; ++turn) {
-            const std::size_t b = leaf_of_[turn] >> coarser_;
+            const std::size_t b = block_of(leaf_of_[turn]);
             blocks_[b].items[at[b]++] = {static_cast<std::uint32_t>(turn)};
         }
     });
 }
 
-void StarLoop::date_others(Workers& workers) {
+std::size_t StarLoop::parts() const { return (leaf_of_.size() + part - 1) / part; }
+
+// Makes room in the change list of the complex, and dates what the blocks have not dated yet.
+std::span<mesh::TetId> StarLoop::count_changes(Workers& workers) {
+    changes_before_.assign(parts(), BlockCounts{});
+    workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
+        BlockCounts at = items_before_[begin / part], count{};
+        for (std::size_t turn = begin; turn < end; ++turn) {
+            const std::size_t b = block_of(leaf_of_[turn]);
+            count[b] += blocks_[b].items[at[b]++].changes;
+        }
+        changes_before_[begin / part] = count;
+    });
     workers.for_blocks(most_blocks, 1, [this](std::size_t begin, std::size_t end) {
         for (const Block& block : std::span(blocks_).subspan(begin, end - begin)) {
             for (const Date& date : block.dates) complex_.raise_date(date.vertex, date.date);
         }
-    });
-}
-
-// Adds the changes of the blocks to the lists of the complex, in the order of the turns.
-void StarLoop::list_changes(Workers& workers) {
-    changes_before_.assign(items_before_.size(), BlockCounts{});
-    workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
-        BlockCounts at = items_before_[begin / part], count{};
-        for (std::size_t turn = begin; turn < end; ++turn) {
-            const std::size_t b = leaf_of_[turn] >> coarser_;
-            count[b] += blocks_[b].items[at[b]++].changes;
-        }
-        changes_before_[begin / part] = count;
     });
     listed_before_.clear();
     std::size_t listed = 0;
@@ -146,18 +145,20 @@ void StarLoop::list_changes(Workers& workers) {
         listed += std::accumulate(count.begin(), count.end(), std::size_t{0});
         add_up(count, total);
     }
-    const std::span<mesh::TetId> list = complex_.add_changes(listed);
-    workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
-        BlockCounts item = items_before_[begin / part], change = changes_before_[begin / part];
-        mesh::TetId* to = list.data() + listed_before_[begin / part];
-        for (std::size_t turn = begin; turn < end; ++turn) {
-            const std::size_t b = leaf_of_[turn] >> coarser_;
-            const std::size_t count = blocks_[b].items[item[b]++].changes;
-            to = std::copy_n(blocks_[b].changes.changed.data() + change[b], count, to);
-            change[b] += count;
-        }
-    });
-    for (const Block& block : blocks_) complex_.add_watched(block.changes.watched);
+    return complex_.add_changes(listed);
+}
+
+// Writes the changes of the blocks in a part of the turns, in their order.
+void StarLoop::list_changes(std::size_t p, std::span<mesh::TetId> list) const {
+    BlockCounts item = items_before_[p], change = changes_before_[p];
+    mesh::TetId* to = list.data() + listed_before_[p];
+    const std::size_t end = std::min((p + 1) * part, leaf_of_.size());
+    for (std::size_t turn = p * part; turn < end; ++turn) {
+        const std::size_t b = block_of(leaf_of_[turn]);
+        const std::size_t count = blocks_[b].items[item[b]++].changes;
+        to = std::copy_n(blocks_[b].changes.changed.data() + change[b], count, to);
+        change[b] += count;
+    }
 }
 
 // Writes date_of_vertex_; false if a vertex occurs twice, and so has two turns.
@@ -181,12 +182,11 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     while (levels < most_levels && vertices.size() >> (levels + 1) >= least_block) ++levels;
     coarser_ = most_levels - levels;
     if (date_of_vertex_.size() < complex_.vertex_slots()) {
-        known_of_vertex_.resize(complex_.vertex_slots(), no_leaf);
         date_of_vertex_.resize(complex_.vertex_slots(), 0);
     }
     if (!take_turns(vertices, workers)) return false;
     complex_.take_reshaped(reshaped_);
-    for (const mesh::VertexId v : reshaped_) known_of_vertex_[v] &= leaf_bits;
+    for (const mesh::VertexId v : reshaped_) complex_.mark(v) &= leaf_bits | listed_bit;
     const bool is_new = loops_++ % most_loops == 0;
     if (is_new) make_planes(vertices);
     find_leaves(vertices, workers);

@@ -80,12 +80,11 @@ private:
     static constexpr unsigned most_levels = 5;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_turn = 0xffffffffU;
-    // The byte of a vertex contains its leaf of the tree, a bit that is set if the vertex is known
+    // The mark of a vertex contains the number of its leaf of the tree plus 1, a bit that is set if the vertex is known
     // to be inner, and one that is set if it has been in a list. A vertex keeps its leaf and that
-    // bit until the planes are made again, and the bit of inner vertices until its shape changes:
-    // bytes that seldom change can lie in the caches of all cores.
-    static constexpr std::uint8_t no_leaf = most_blocks, leaf_bits = 2 * most_blocks - 1,
-                                  listed_bit = 0x40, inner_bit = 0x80;
+    // bit until the planes are made again, and the bit of inner vertices until its shape changes.
+    static constexpr std::uint8_t no_leaf = 0, leaf_bits = 2 * most_blocks - 1, listed_bit = 0x40,
+                                  inner_bit = 0x80;
     static_assert(leaf_bits < listed_bit);
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
                                                                    // asked for data
@@ -151,39 +150,44 @@ private:
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
     void find_leaves(std::span<const mesh::VertexId> vertices, Workers& workers);
     void fill_blocks(Workers& workers);
-    std::uint8_t leaf_of_new(mesh::VertexId v) const;
+    std::uint8_t leaf_of_new(mesh::VertexId v);
     bool take_turns(std::span<const mesh::VertexId> vertices, Workers& workers);
     bool is_balanced() const;
     std::uint8_t leaf_at(const Vec3& place) const;
     Offer farthest_behind(const Thread& thread) const;
 
-    // Reads the byte of a vertex. While threads work, only leaf_in() and is_free() change bytes.
-    std::uint8_t known_of(mesh::VertexId v) {
-        return std::atomic_ref(known_of_vertex_[v]).load(std::memory_order_relaxed);
+    // While threads work, only leaf_in() and is_free() change marks.
+    std::uint8_t mark_of(mesh::VertexId v) {
+        return std::atomic_ref(complex_.mark(v)).load(std::memory_order_relaxed);
+    }
+    // The block of a vertex with a leaf.
+    std::uint8_t block_of(std::uint8_t mark) const {
+        return static_cast<std::uint8_t>(((mark & leaf_bits) - 1) >> coarser_);
     }
     // Whether all neighbours are in the leaf of v. Then the order of the block is enough, and the
     // star of a vertex that is not ready need not be looked at; also, only the thread that has the
     // block writes to v.
-    bool is_inner(mesh::VertexId v) { return (known_of(v) & inner_bit) != 0; }
-    // The leaf of v. A vertex that has none, because it was in no list so far, gets `offered`.
+    bool is_inner(mesh::VertexId v) { return (mark_of(v) & inner_bit) != 0; }
+    // The leaf in the mark of v. A vertex that has none, because it was in no list so far, gets
+    // `offered`.
     std::uint8_t leaf_in(mesh::VertexId v, std::uint8_t offered) {
-        std::uint8_t leaf = known_of(v) & leaf_bits;
+        std::uint8_t leaf = mark_of(v) & leaf_bits;
         if (leaf == no_leaf &&
-            std::atomic_ref(known_of_vertex_[v])
+            std::atomic_ref(complex_.mark(v))
                 .compare_exchange_strong(leaf, offered, std::memory_order_relaxed))
             return offered;
         return leaf;
     }
     // Whether the neighbours that come earlier have been processed.
     bool is_free(Block& block, mesh::VertexId v, std::uint32_t turn) {
-        const std::uint8_t known = known_of(v), own = known & leaf_bits;
+        const std::uint8_t mark = mark_of(v), own = mark & leaf_bits, own_block = block_of(mark);
         bool inner = true;
         for (const mesh::VertexId w : block.scratch.star.neighbours) {
             const std::uint8_t leaf = leaf_in(w, own);
             if (leaf == own) continue;
             inner = false;
-            if (leaf >> coarser_ == own >> coarser_) continue;
-            const auto other = static_cast<std::uint8_t>(leaf >> coarser_);
+            const std::uint8_t other = block_of(leaf);
+            if (other == own_block) continue;
             const std::uint32_t date = date_of_vertex_[w];
             if (date <= start_ || date >= date_of(turn)) continue;
             const std::uint32_t earlier = date - date_of(0);
@@ -193,8 +197,8 @@ private:
             }
         }
         if (inner) {
-            std::atomic_ref(known_of_vertex_[v])
-                .store(static_cast<std::uint8_t>(known | inner_bit), std::memory_order_relaxed);
+            std::atomic_ref(complex_.mark(v))
+                .store(static_cast<std::uint8_t>(mark | inner_bit), std::memory_order_relaxed);
         }
         return true;
     }
@@ -225,13 +229,6 @@ private:
                 complex_.move(v, scratch.place, scratch.star.tets, scratch.qualities);
         }
         action.settle(i, date_of(i));
-    }
-
-    // The bytes of the neighbours.
-    void prefetch_known(mesh::VertexId v) const {
-        if (!complex_.exceeds_caches()) return;
-        for (const mesh::VertexId w : complex_.stored_neighbours(v))
-            __builtin_prefetch(&known_of_vertex_[w]);
     }
 
     // Until all items have been processed. The earliest of the items that are left can always be
@@ -269,8 +266,6 @@ private:
             if (!block.prepared) {
                 prefetch(vertices, action, block.next, block.items.size(),
                          [&](std::size_t at) { return block.items[at].turn; });
-                if (block.next + near < block.items.size())
-                    prefetch_known(vertices[block.items[block.next + near].turn]);
             }
             if (!is_inner(v)) {
                 prepare(block, v);
@@ -295,13 +290,26 @@ private:
     // What follows in the order of the list.
     template <class Action>
     void settle(Action& action, Workers& workers) {
-        date_others(workers);
-        list_changes(workers);
+        const std::span<mesh::TetId> list = count_changes(workers);
+        // The books are kept by one thread, as part 0, while others go on.
+        workers.for_blocks(parts() + 1, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t p = begin; p < end; ++p) {
+                if (p == 0)
+                    keep_books(action);
+                else
+                    list_changes(p - 1, list);
+            }
+        });
+        for (const Block& block : blocks_) complex_.add_watched(block.changes.watched);
+    }
+    template <class Action>
+    void keep_books(Action& action) {
         for (std::uint32_t turn = 0; turn < leaf_of_.size(); ++turn)
             action.settle(turn, date_of(turn));
     }
-    void date_others(Workers& workers);
-    void list_changes(Workers& workers);
+    std::size_t parts() const;
+    std::span<mesh::TetId> count_changes(Workers& workers);
+    void list_changes(std::size_t p, std::span<mesh::TetId> list) const;
 
     template <class Action>
     void run_next(Block& block, mesh::VertexId v, Item& item, Action& action) {
@@ -312,23 +320,22 @@ private:
         complex_.place(v, scratch.place, scratch.star.tets, scratch.qualities);
         const std::size_t before = block.changes.changed.size();
         complex_.date_move(v, scratch.star, date_of(item.turn), block.changes,
-                           [&](mesh::VertexId w) {
-                               return dating(block, v, w, date_of(item.turn));
+                           [&, own = block_of(mark_of(v))](mesh::VertexId w) {
+                               return dating(block, own, w, date_of(item.turn));
                            });
         item.changes = static_cast<std::uint32_t>(block.changes.changed.size() - before);
     }
 
-    // How vertex w gets the date of a move of v in a block. Both have leaves. Nobody asks for the
+    // How vertex w, which has a leaf, gets the date of a move in block `own`. Nobody asks for the
     // date of a vertex that was never in the list before the loop ends, so its own block dates it at
     // once, and the others keep the date until then.
-    mesh::Complex::Dating dating(Block& block, mesh::VertexId v, mesh::VertexId w,
+    mesh::Complex::Dating dating(Block& block, std::uint8_t own, mesh::VertexId w,
                                  std::uint32_t date) {
         using enum mesh::Complex::Dating;
-        const std::uint8_t known = known_of(w);
-        if ((known & inner_bit) != 0) return alone;
-        if ((known & listed_bit) != 0) return together;
-        const auto block_of = [this](std::uint8_t byte) { return (byte & leaf_bits) >> coarser_; };
-        if (block_of(known) == block_of(known_of(v))) return alone;
+        const std::uint8_t mark = mark_of(w);
+        if ((mark & inner_bit) != 0) return alone;
+        if ((mark & listed_bit) != 0) return together;
+        if (block_of(mark) == own) return alone;
         block.dates.push_back({w, date});
         return later;
     }
@@ -343,7 +350,6 @@ private:
     };
     std::array<Plane, most_blocks> planes_;  // of the tree; node i has the children 2 i and 2 i + 1
     std::vector<Vec3> samples_;
-    std::vector<std::uint8_t> known_of_vertex_;  // leaf | inner_bit
     std::vector<std::uint32_t> date_of_vertex_;  // of its last turn; in the past if it is not in
                                                  // the list
     std::vector<mesh::VertexId> reshaped_;       // since the last division

@@ -31,12 +31,13 @@ VertexId Complex::allocate_vertex(const Vec3& position) {
         vertices_.emplace_back();
         shapes_.emplace_back();
         births_.emplace_back();
+        interface_slots_.push_back(none);
         stars_.grow(vertices_.size());
     } else {
         v = free_vertices_.back();
         free_vertices_.pop_back();
     }
-    vertices_[v] = {position, clock_, no_slot, 1, 0};
+    vertices_[v] = {position, clock_};
     shapes_[v].seed = none;
     births_[v] = next_birth_++;
     return v;
@@ -83,18 +84,17 @@ void Complex::watch(std::span<const TetId> tets) {
 }
 
 void Complex::set_phases(VertexId v, unsigned phases) {
-    Vertex& vertex = vertices_[v];
-    vertex.phases = phases & 3U;
-    const bool listed = vertex.interface_slot != no_slot;
-    if (phases > 1 && !listed) {
-        vertex.interface_slot = static_cast<std::uint32_t>(interface_.size()) & no_slot;
+    vertices_[v].phases = static_cast<std::uint8_t>(phases);
+    std::uint32_t& slot = interface_slots_[v];
+    if (phases > 1 && slot == none) {
+        slot = static_cast<std::uint32_t>(interface_.size());
         interface_.push_back(v);
-    } else if (phases <= 1 && listed) {
+    } else if (phases <= 1 && slot != none) {
         const VertexId last = interface_.back();
-        interface_[vertex.interface_slot] = last;
-        vertices_[last].interface_slot = vertex.interface_slot;
+        interface_[slot] = last;
+        interface_slots_[last] = slot;
         interface_.pop_back();
-        vertex.interface_slot = no_slot;
+        slot = none;
     }
 }
 
@@ -280,11 +280,12 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets
     c.vertices_.reserve(points.size());
     c.births_.reserve(points.size());
     for (const Vec3& p : points) {
-        c.vertices_.push_back({p, 0, no_slot, 1, 0});
+        c.vertices_.push_back({p});
         c.births_.push_back(c.next_birth_++);
         c.box_.extend(p);
     }
     c.shapes_.assign(c.vertices_.size(), {none, 1});
+    c.interface_slots_.assign(c.vertices_.size(), none);
     c.stars_.grow(c.vertices_.size());
     c.tets_.resize(tets.size());
     c.neighbours_ = std::move(neighbours);

@@ -6,9 +6,12 @@
 namespace dsc::mesh {
 
 void Complex::save(StateWriter& out) const {
-    out.list(vertices_);
+    LargeVector<Vertex> unmarked = vertices_;
+    for (Vertex& vertex : unmarked) vertex.mark = 0;
+    out.list(unmarked);
     out.list(shapes_);
     out.list(births_);
+    out.list(interface_slots_);
     out.list(tets_);
     out.list(neighbours_);
     out.list(free_vertices_);
@@ -27,11 +30,12 @@ Complex Complex::load(StateReader& in) {
     in.list(c.vertices_);
     in.list(c.shapes_);
     in.list(c.births_);
+    in.list(c.interface_slots_);
     c.stars_.grow(c.vertices_.size());
     in.list(c.tets_);
     in.list(c.neighbours_);
     if (c.neighbours_.size() != c.tets_.size() || c.shapes_.size() != c.vertices_.size() ||
-        c.births_.size() != c.vertices_.size())
+        c.births_.size() != c.vertices_.size() || c.interface_slots_.size() != c.vertices_.size())
         throw IoError(
             "state.damaged", "saved complex", "",
             "its lists have different lengths, so it is damaged or is not a saved complex",

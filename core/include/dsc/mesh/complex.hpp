@@ -183,6 +183,13 @@ public:
     bool interior(VertexId v) const {
         return ((vertices_[v].phases & 2U) | vertices_[v].on_box) == 0;
     }
+    /// A byte for loops over stars, beside the position because such loops read both. A new vertex
+    /// has 0. It is not saved. Threads that share it use std::atomic_ref.
+    std::uint8_t& mark(VertexId v) { return vertices_[v].mark; }
+    /// Sets all marks to 0. [step]
+    void clear_marks() {
+        for (Vertex& vertex : vertices_) vertex.mark = 0;
+    }
     /// All interface vertices, in unspecified order (sort by birth).
     std::span<const VertexId> interface_vertices() const { return interface_; }
     /// Label on the other side of face i: that of the neighbour, or 0 outside the box.
@@ -223,9 +230,6 @@ public:
         for (const TetId t : stars_.tets(v)) prefetch(t);
         for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w]);
     }
-
-    /// The neighbours as far as they are stored.
-    std::span<const VertexId> stored_neighbours(VertexId v) const { return stars_.neighbours(v); }
 
     // ---- walks ----------------------------------------------------------------------------------
     /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`.
@@ -349,11 +353,12 @@ public:
 private:
     // What loops over many tets read of a vertex. Like Tet, it lies in one line of the caches.
     struct alignas(32) Vertex {
-        Vec3 position;
-        std::uint32_t date;
-        std::uint32_t interface_slot : 29;  // index into interface_; no_slot if it is not there
-        std::uint32_t phases : 2;
-        std::uint32_t on_box : 1;
+        Vec3 position = Vec3::Zero();
+        std::uint32_t date = 0;
+        std::uint8_t phases = 1;
+        std::uint8_t on_box = 0;
+        std::uint8_t mark = 0;
+        std::uint8_t unused = 0;  // named, so that the saved bytes are defined
     };
     static_assert(sizeof(Vertex) == 32);
     // What changes only if the tets of its star change.
@@ -361,7 +366,6 @@ private:
         TetId seed = none;
         std::uint32_t date = 0;  // shape_date()
     };
-    static constexpr std::uint32_t no_slot = (1U << 29U) - 1;
 
     VertexId allocate_vertex(const Vec3& position);
     TetId allocate_tet();
@@ -392,6 +396,8 @@ private:
     LargeVector<TetNeighbours> neighbours_;  // per tet
     LargeVector<VertexShape> shapes_;        // per vertex
     LargeVector<std::uint32_t> births_;      // per vertex
+    // Per vertex: its index in interface_, or none if it is not there.
+    LargeVector<std::uint32_t> interface_slots_;
     std::vector<VertexId> free_vertices_;
     std::vector<TetId> free_tets_;
     std::vector<VertexId> interface_;
