@@ -1,5 +1,6 @@
 // Linking a cavity: finds the neighbours of the added tets, among each other and across the
 // boundary of the cavity (method.md, section 4.1).
+#include <algorithm>
 #include <bit>
 
 #include <dsc/mesh/complex.hpp>
@@ -18,13 +19,12 @@ void Edit::clear() {
 
 namespace {
 
+// The vertices of a face in ascending order, found without branches, which could not be predicted.
 std::array<VertexId, 3> face_key(const std::array<VertexId, 4>& v, unsigned face) {
-    std::array<VertexId, 3> key = {v[face_vertices[face][0]], v[face_vertices[face][1]],
-                                   v[face_vertices[face][2]]};
-    if (key[0] > key[1]) std::swap(key[0], key[1]);
-    if (key[1] > key[2]) std::swap(key[1], key[2]);
-    if (key[0] > key[1]) std::swap(key[0], key[1]);
-    return key;
+    const VertexId a = v[face_vertices[face][0]], b = v[face_vertices[face][1]],
+                   c = v[face_vertices[face][2]];
+    const VertexId low = std::min(a, b), high = std::max(a, b), above = std::max(low, c);
+    return {std::min(low, c), std::min(above, high), std::max(above, high)};
 }
 
 std::size_t hash(const std::array<VertexId, 3>& key) {
@@ -51,15 +51,19 @@ bool Complex::link(Edit& edit) const {
         return face_table_[at];
     };
     walk_.places.clear();
-    for (const TetId t : edit.removed) walk_.places.insert(t);
+    for (const TetId t : edit.removed) {
+        __builtin_prefetch(&neighbours_[t]);
+        walk_.places.insert(t);
+    }
     std::size_t open = 0;
     for (const TetId t : edit.removed) {
         for (unsigned f = 0; f < 4; ++f) {
             const std::uint32_t code = neighbours_[t][f];
             if (code != none && walk_.places.contains(neighbour_tet(code))) continue;
-            FaceSlot& slot = find(face_key(tets_[t].v, f));
+            const auto key = face_key(tets_[t].v, f);
+            FaceSlot& slot = find(key);
             if (slot.stamp == face_stamp_) return false;
-            slot = {face_key(tets_[t].v, f), code, face_stamp_, false};
+            slot = {key, code, face_stamp_, false};
             ++open;
         }
     }
