@@ -90,6 +90,8 @@ TEST_CASE("stored stars, neighbours and shape dates follow every operation") {
         const double length = mesh::mean_interface_edge(c);
         bench.limits = {length, 1e-3, 0.5 * length, geometry::regular_tet_volume(length), 0.5};
         Stars before = scan(c);
+        std::vector<VertexId> reshaped;
+        c.take_reshaped(reshaped);  // adoption may have relabelled tets
         std::uint32_t clock = c.clock();
         for (int n = 0; n < 3000; ++n) {
             if (n % 3 == 0) {
@@ -105,11 +107,16 @@ TEST_CASE("stored stars, neighbours and shape dates follow every operation") {
             if (n % 40 != 39) continue;
             const Stars now = scan(c);
             check_cache(c, now);
+            c.take_reshaped(reshaped);
+            std::sort(reshaped.begin(), reshaped.end());
+            REQUIRE(std::adjacent_find(reshaped.begin(), reshaped.end()) == reshaped.end());
             for (VertexId v = 0; v < c.vertex_slots(); ++v) {
                 if (!c.vertex_alive(v)) continue;
                 const bool same = v < before.size() && before[v] == now[v];
                 if (!same) REQUIRE(c.shape_date(v) > clock);
                 (c.shape_date(v) > clock ? changed : kept) += 1;
+                REQUIRE(std::binary_search(reshaped.begin(), reshaped.end(), v) ==
+                        (c.shape_date(v) > clock));
             }
             before = now;
             clock = c.clock();
