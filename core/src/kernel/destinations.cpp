@@ -12,6 +12,7 @@ namespace dsc::kernel {
 
 void Destinations::clear() {
     active_.clear();
+    clean_at_ = complex_.shape_clock();
     entries_.clear();
     near_collapses_.clear();
     not_arrived_.clear();
@@ -40,6 +41,8 @@ void Destinations::send(VertexId v, const Vec3& destination) {
     if (entry == nullptr) {
         entry_of_vertex_[v] = static_cast<std::uint32_t>(entries_.size());
         entry = &entries_.emplace_back();
+    } else {
+        clean_at_ = never;
     }
     *entry = {destination, v, complex_.birth(v), 0, 0};
     active_.push_back(v);
@@ -109,6 +112,8 @@ struct Destinations::Pass {
 };
 
 void Destinations::drop_dead_and_double() {
+    if (clean_at_ == complex_.shape_clock()) return;
+    clean_at_ = complex_.shape_clock();
     ++pass_;
     std::size_t kept = 0;
     constexpr std::size_t ahead = 16;

@@ -82,6 +82,10 @@ private:
     std::vector<Entry> entries_;
     std::vector<std::uint32_t> entry_of_vertex_;
     std::vector<VertexId> active_;
+    // The shape clock at which all vertices in active_ were movable and different. As long as it
+    // does not advance, they stay so.
+    static constexpr std::uint32_t never = 0xffffffffU;
+    std::uint32_t clean_at_ = never;
     std::vector<VertexId> blocked_;
     std::vector<VertexId> near_collapses_;
     std::vector<std::uint8_t> fates_;

@@ -291,7 +291,7 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets
     c.neighbours_ = std::move(neighbours);
     const std::size_t n = c.tets_.size();
     c.lists_.changed.reserve(n);
-    c.clock_ = c.reshaped_since_ = 1;
+    c.clock_ = c.shape_clock_ = c.reshaped_since_ = 1;
     for_blocks(workers, n, assembled_tets, [&c, &tets, labels](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             const TetCorners& v = tets[t];

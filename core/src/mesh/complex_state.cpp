@@ -46,7 +46,7 @@ Complex Complex::load(StateReader& in) {
     in.list(c.lists_.changed);
     in.value(c.taken_clock_);
     in.value(c.clock_);
-    c.reshaped_since_ = c.clock_;
+    c.reshaped_since_ = c.shape_clock_ = c.clock_;
     in.value(c.next_birth_);
     in.value(c.box_.low);
     in.value(c.box_.high);

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -19,6 +18,7 @@
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/vec.hpp>
 #include <dsc/mesh/star_cache.hpp>
+#include <dsc/mesh/tet.hpp>
 #include <dsc/mesh/tet_index.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 
@@ -28,49 +28,6 @@ class StateWriter;
 }  // namespace dsc
 
 namespace dsc::mesh {
-
-using VertexId = std::uint32_t;
-using TetId = std::uint32_t;
-
-/// No vertex, no tet, no neighbour (a face on the box).
-inline constexpr std::uint32_t none = 0xffffffffU;
-/// Id of the vertex that an Edit creates, before the vertex exists.
-inline constexpr VertexId created_vertex = 0xfffffffeU;
-
-/// Local vertex indices of face i, counter-clockwise seen from outside a positive tet.
-inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_vertices = {
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-/// Local vertex indices of the six edges.
-inline constexpr std::array<std::array<std::uint8_t, 2>, 6> edge_vertices = {
-    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-/// The vertices of a tet.
-using TetCorners = std::array<VertexId, 4>;
-
-/// What is stored of a tet, without its neighbours. 32 bytes, so that it lies in one line of the
-/// caches: what reads a part of it nearly always reads others.
-struct alignas(32) Tet {
-    TetCorners v;
-    float quality = 0.0F;
-    std::uint32_t date = 0;
-    std::uint32_t birth_date = 0;
-    Label label = 0;
-};
-static_assert(sizeof(Tet) == 32);
-
-/// For each face of a tet, 4 * neighbour + its face index there, or none.
-using TetNeighbours = std::array<std::uint32_t, 4>;
-
-inline TetId neighbour_tet(std::uint32_t code) { return code >> 2U; }
-inline unsigned neighbour_face(std::uint32_t code) { return code & 3U; }
-
-/// Local index of v in the tet; 4 if the tet does not contain v.
-inline unsigned index_of(const Tet& tet, VertexId v) {
-    // Without branches, because the processor cannot guess where v is.
-    const auto bit = [&](unsigned i) { return static_cast<unsigned>(tet.v[i] == v) << i; };
-    return static_cast<unsigned>(std::countr_zero(bit(0) | bit(1) | bit(2) | bit(3) | 16U));
-}
-inline bool has_vertex(const Tet& tet, VertexId v) { return index_of(tet, v) < 4; }
 
 /// The tets round an edge ab in rotation order. tets[i] has the vertices a, b, link[i], link[i+1],
 /// and orient3d(a, b, link[i], link[i+1]) == 1. A closed ring has as many link entries as tets
@@ -164,6 +121,8 @@ public:
     std::uint32_t shape_date(VertexId v) const { return shapes_[v].date; }
     /// The change clock. It advances with each committed change.
     std::uint32_t clock() const { return clock_; }
+    /// Value of the change clock when a shape_date() last advanced.
+    std::uint32_t shape_clock() const { return shape_clock_; }
     /// Number of the vertex in the order of creation; it survives renumbering and resuming.
     std::uint32_t birth(VertexId v) const { return births_[v]; }
     /// Birth of the vertex that will be created next: greater than all births so far. A birth is
@@ -372,6 +331,7 @@ private:
     void note_change(VertexId v, std::span<const TetId> star);
     void touch(TetId t);
     void reshape(VertexId v) {
+        shape_clock_ = clock_;
         if (std::exchange(shapes_[v].date, clock_) <= reshaped_since_) reshaped_.push_back(v);
     }
     void note(TetId t, std::uint32_t date, ChangeLists& lists) {
@@ -414,6 +374,7 @@ private:
     std::uint32_t taken_clock_ = 0;    // clock when the change list was last taken; tets of a later
                                        // date are in the list
     std::uint32_t watched_since_ = 0;  // tets of this date or a later one are watched
+    std::uint32_t shape_clock_ = 0;
     std::vector<VertexId> reshaped_;
     std::uint32_t reshaped_since_ = 0;  // vertices of a later shape date are in the list
     std::uint32_t clock_ = 0;
