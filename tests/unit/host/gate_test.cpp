@@ -96,7 +96,7 @@ TEST_CASE("other versions of the ABI") {
     CHECK(refusal(fixture("bad_abi_new")).code == "plugin.abi");
     CHECK(refusal(fixture("bad_abi_new")).text ==
           fixture("bad_abi_new").string() +
-              ": needs ABI 6.1, this dsc has ABI 6.0; install a newer dsc, or rebuild the plugin "
+              ": needs ABI 7.1, this dsc has ABI 7.0; install a newer dsc, or rebuild the plugin "
               "with the headers of this one");
 }
 
