@@ -50,8 +50,7 @@ Refusal stronger(Outcome x, Outcome y) {
 
 // `known`: the first edges are refused.
 template <class Attempt>
-Outcome first_success(const std::array<Edge, 6>& edges, const Foresight& known,
-                      Attempt&& attempt) {
+Outcome first_success(const std::array<Edge, 6>& edges, const Foresight& known, Attempt&& attempt) {
     Refusal result = known.reason;
     for (std::size_t i = known.edges; i < edges.size(); ++i) {
         const Outcome o = attempt(edges[i]);

@@ -31,8 +31,7 @@ bool Foresights::holds(const repair::Request& request) const {
     const TetId t = request.tet;
     if (t >= c.tet_slots() || !c.tet_alive(t)) return false;
     const auto& v = c.tet(t).v;
-    return std::all_of(v.begin(), v.end(),
-                       [&](VertexId x) { return c.vertex_date(x) <= date_; });
+    return std::all_of(v.begin(), v.end(), [&](VertexId x) { return c.vertex_date(x) <= date_; });
 }
 
 // Judges the requests from `first` on, up to the next smoothing, which may change any of them.

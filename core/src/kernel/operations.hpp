@@ -12,8 +12,8 @@ namespace dsc::kernel {
 /// Interior edge (a, b) of tet t: the ring's best triangulation, rings of 3 to 7 [Freitag1997]
 /// (section 4.3).
 Outcome remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above);
-/// Whether remove_edge() would find a triangulation, or why not. A refusal holds as long as the stars
-/// of a and b do not change. [parallel] with a bench that looks only.
+/// Whether remove_edge() would find a triangulation, or why not. A refusal holds as long as the
+/// stars of a and b do not change. [parallel] with a bench that looks only.
 Outcome may_remove(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above);
 /// Interface edge (a, b): the other diagonal of its two interface faces; the tets of both labels at
 /// the edge are re-triangulated (section 4.5).

@@ -79,7 +79,8 @@ void StarLoop::find_leaves(std::span<const mesh::VertexId> vertices, Workers& wo
             const std::atomic_ref mark(complex_.mark(vertices[turn]));
             const std::uint8_t known = mark.load(std::memory_order_relaxed);
             leaf_of_[turn] = known & leaf_bits;
-            if ((known & listed_bit) == 0) mark.store(known | listed_bit, std::memory_order_relaxed);
+            if ((known & listed_bit) == 0)
+                mark.store(known | listed_bit, std::memory_order_relaxed);
             if (leaf_of_[turn] == no_leaf) some_new.store(true, std::memory_order_relaxed);
         }
     });

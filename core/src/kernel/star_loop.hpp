@@ -80,9 +80,10 @@ private:
     static constexpr unsigned most_levels = 5;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_turn = 0xffffffffU;
-    // The mark of a vertex contains the number of its leaf of the tree plus 1, a bit that is set if the vertex is known
-    // to be inner, and one that is set if it has been in a list. A vertex keeps its leaf and that
-    // bit until the planes are made again, and the bit of inner vertices until its shape changes.
+    // The mark of a vertex contains the number of its leaf of the tree plus 1, a bit that is set if
+    // the vertex is known to be inner, and one that is set if it has been in a list. A vertex keeps
+    // its leaf and that bit until the planes are made again, and the bit of inner vertices until
+    // its shape changes.
     static constexpr std::uint8_t no_leaf = 0, leaf_bits = 2 * most_blocks - 1, listed_bit = 0x40,
                                   inner_bit = 0x80;
     static_assert(leaf_bits < listed_bit);
@@ -327,8 +328,8 @@ private:
     }
 
     // How vertex w, which has a leaf, gets the date of a move in block `own`. Nobody asks for the
-    // date of a vertex that was never in the list before the loop ends, so its own block dates it at
-    // once, and the others keep the date until then.
+    // date of a vertex that was never in the list before the loop ends, so its own block dates it
+    // at once, and the others keep the date until then.
     mesh::Complex::Dating dating(Block& block, std::uint8_t own, mesh::VertexId w,
                                  std::uint32_t date) {
         using enum mesh::Complex::Dating;

@@ -56,9 +56,7 @@ struct Deformer::State::Smoothing {
     StepReport& report;
 
     const repair::Request& request(std::size_t i) const { return state.requests[first + i]; }
-    void prefetch(std::size_t i) const {
-        state.bench.prefetch_memory(request(i).vertices[0]);
-    }
+    void prefetch(std::size_t i) const { state.bench.prefetch_memory(request(i).vertices[0]); }
     bool decide(std::size_t i, Outcome outcome) const {
         state.outcomes[first + i] = outcome;
         return !outcome.refused();

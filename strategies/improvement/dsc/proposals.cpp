@@ -217,10 +217,9 @@ void Proposals::find_in_block(const repair::RepairRound& round, std::size_t begi
                    c.on_interface(v[3]) >=
                3;
     };
-    mesh::visit_tets(round.complex, round.dirty.subspan(begin, end - begin), may_have_face,
-                     [&](std::size_t i) {
-                         find_in(round, static_cast<std::uint32_t>(begin + i), found);
-                     });
+    mesh::visit_tets(
+        round.complex, round.dirty.subspan(begin, end - begin), may_have_face,
+        [&](std::size_t i) { find_in(round, static_cast<std::uint32_t>(begin + i), found); });
 }
 
 // Appends what is in the first blocks.

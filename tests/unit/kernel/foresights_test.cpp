@@ -1,10 +1,11 @@
 // Requests that are judged before their turn have the outcomes of requests that are not.
+#include "kernel/foresights.hpp"
+
 #include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
 #include <dsc/geometry/quality.hpp>
 
-#include "kernel/foresights.hpp"
 #include "shapes.hpp"
 
 using namespace dsc;
@@ -21,8 +22,8 @@ std::vector<repair::Request> random_requests(const mesh::Complex& c, RandomStrea
     for (int n = 0; n < 150; ++n) {
         const auto t = static_cast<TetId>((first + random.index(300)) % c.tet_slots());
         if (!c.tet_alive(t)) continue;
-        constexpr std::array kinds = {Operation::edge_removal, Operation::edge_collapse,
-                                      Operation::edge_removal, Operation::edge_collapse,
+        constexpr std::array kinds = {Operation::edge_removal,   Operation::edge_collapse,
+                                      Operation::edge_removal,   Operation::edge_collapse,
                                       Operation::interface_flip, Operation::smooth_laplacian};
         repair::Request request = repair::on_tet(c, t, kinds[random.index(kinds.size())]);
         if (request.operation == Operation::smooth_laplacian)

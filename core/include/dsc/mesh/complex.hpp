@@ -247,7 +247,7 @@ public:
     enum class Dating : std::uint8_t {
         alone,     ///< no other thread can date a move round w meanwhile
         together,  ///< another thread may do so
-        later      ///< the caller calls raise_date() after the loop; nobody asks for the date before
+        later  ///< the caller calls raise_date() after the loop; nobody asks for the date before
     };
     template <class HowToDate>
     void date_move(VertexId v, const Star& star, std::uint32_t date, ChangeLists& changes,
@@ -289,8 +289,8 @@ public:
     /// In unspecified order; may include dead ids. Empty before start_watch().
     std::span<const TetId> watched() const { return lists_.watched; }
 
-    /// The vertices whose shape_date() has advanced since the last call, each once; may include dead
-    /// ids. The list is not saved. [step]
+    /// The vertices whose shape_date() has advanced since the last call, each once; may include
+    /// dead ids. The list is not saved. [step]
     void take_reshaped(std::vector<VertexId>& out);
 
     // ---- making and copying ---------------------------------------------------------------------
