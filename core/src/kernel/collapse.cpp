@@ -283,6 +283,7 @@ Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     if (const Outcome o = choose(bench, t, a, b, mode, accept_above, choice); o.refused()) return o;
     const auto& [best, interface_edge, a_moves, b_moves, old, must_exceed] = choice;
     const mesh::Complex& c = bench.complex;
+    // The stars that choose() found are still in the scratch arrays.
     Collapse collapse(bench, a, b, interface_edge);
     const Outcome result = finish(bench, collapse, best, interface_edge, must_exceed, old);
     if (result != Refusal::bound || !interface_edge || !bench.limits.keeps_creases()) return result;

@@ -49,9 +49,9 @@ void Foresights::look(std::size_t first) {
         judge->limits = bench_.limits;
         judge->lengths = bench_.lengths;
     }
-    workers_->for_blocks(foresights_.size(), block, [this](std::size_t begin, std::size_t end_) {
-        Workbench& judge = *judges_[begin / block];
-        for (std::size_t i = begin; i < end_; ++i)
+    workers_->for_blocks(foresights_.size(), block, [this](std::size_t from, std::size_t to) {
+        Workbench& judge = *judges_[from / block];
+        for (std::size_t i = from; i < to; ++i)
             foresights_[i] = foresee(judge, requests_[first_ + i]);
     });
 }

@@ -73,8 +73,8 @@ struct Star {
     std::span<const VertexId> neighbours;
 };
 
-/// The arrays of a walk round a vertex, for one thread. The next walk uses them again, so it
-/// allocates memory only if its star is larger.
+/// Arrays that a walk round a vertex fills. Each thread needs its own object. If one object serves
+/// many walks, memory is allocated only for a star that is larger than all stars before.
 struct StarWalk {
     TetIndex places;
     std::vector<TetId> tets;
@@ -225,8 +225,8 @@ public:
     /// Commits a linked edit; its tets must be positive. Returns the id of the created vertex, or
     /// none. [step]
     VertexId replace(Edit& edit);
-    /// Moves a vertex. `star` contains all tets round the vertex. The caller makes sure that they
-    /// are positive after the move. [step]
+    /// Moves a vertex. `star`: all tets that contain the vertex. Each of these tets must be
+    /// positive after the move. [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star);
     /// The same with known qualities of the tets at the new position, in the order of the star.
     /// [step]
@@ -310,7 +310,8 @@ public:
     static Complex load(StateReader& in);
 
 private:
-    // What loops over many tets read of a vertex. Like Tet, it lies in one line of the caches.
+    // The data of a vertex that loops over many tets read. These 32 bytes lie in one line of the
+    // caches, as those of a Tet do.
     struct alignas(32) Vertex {
         Vec3 position = Vec3::Zero();
         std::uint32_t date = 0;
