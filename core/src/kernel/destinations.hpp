@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include <dsc/base/prefetch.hpp>
 #include <dsc/kernel/step_report.hpp>
 
 #include "kernel/movement.hpp"
@@ -33,7 +34,7 @@ public:
     /// Asks the memory for what send() will read and write.
     void prefetch(VertexId v) const {
         complex_.prefetch_vertex(v);
-        if (v < entry_of_vertex_.size()) __builtin_prefetch(&entry_of_vertex_[v], 1);
+        if (v < entry_of_vertex_.size()) prefetch_line_to_write(&entry_of_vertex_[v]);
     }
 
     /// Makes one attempt for every vertex that moves; returns the sum of the remaining distances.

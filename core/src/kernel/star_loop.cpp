@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include <dsc/base/prefetch.hpp>
+
 namespace dsc::kernel {
 namespace {
 
@@ -167,7 +169,7 @@ bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& wor
     std::atomic<bool> twice{false};
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
-            if (turn + ahead < end) __builtin_prefetch(&date_of_vertex_[vertices[turn + ahead]], 1);
+            if (turn + ahead < end) prefetch_line_to_write(&date_of_vertex_[vertices[turn + ahead]]);
             const std::atomic_ref date(date_of_vertex_[vertices[turn]]);
             if (date.exchange(date_of(turn), std::memory_order_relaxed) > start_)
                 twice.store(true, std::memory_order_relaxed);

@@ -54,7 +54,8 @@ public:
         start_ = complex_.clock();
         if (workers == nullptr || workers->threads() < 2 || !divide(vertices, *workers)) {
             for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-                prefetch(vertices, action, i, vertices.size(), [](std::size_t at) { return at; });
+                prefetch(vertices, action, i, vertices.size(), [](std::size_t at) { return at; },
+                         blocks_.front().scratch.walk);
                 run_one(vertices[i], i, action);
             }
             complex_.advance_clock(date_of(vertices.size()) - 1);
@@ -87,8 +88,8 @@ private:
     static constexpr std::uint8_t no_leaf = 0, leaf_bits = 2 * most_blocks - 1, listed_bit = 0x40,
                                   inner_bit = 0x80;
     static_assert(leaf_bits < listed_bit);
-    static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
-                                                                   // asked for data
+    static constexpr std::size_t next = 1, near = 3, far = 6, farther = 12;  // how far ahead the
+                                                                   // memory is asked for data
 
     // A vertex at its turn.
     struct Item {
@@ -207,7 +208,7 @@ private:
     // `turn(i)` is the i-th of `count` turns.
     template <class Action, class Turn>
     void prefetch(std::span<const mesh::VertexId> vertices, const Action& action, std::size_t i,
-                  std::size_t count, const Turn& turn) const {
+                  std::size_t count, const Turn& turn, mesh::StarWalk& walk) const {
         if (!complex_.exceeds_caches()) return;
         if (i + farther < count) {
             const std::size_t at = turn(i + farther);
@@ -217,6 +218,11 @@ private:
         }
         if (i + far < count) complex_.prefetch_star(vertices[turn(i + far)]);
         if (i + near < count) complex_.prefetch_star_tets(vertices[turn(i + near)]);
+        // The connectivity stays as it is, so a star can be found ahead of its turn.
+        if (i + next < count) {
+            if (const mesh::VertexId v = vertices[turn(i + next)]; !complex_.knows_star(v))
+                complex_.cached_star(v, walk);
+        }
     }
 
     template <class Action>
@@ -266,7 +272,8 @@ private:
             const mesh::VertexId v = vertices[item.turn];
             if (!block.prepared) {
                 prefetch(vertices, action, block.next, block.items.size(),
-                         [&](std::size_t at) { return block.items[at].turn; });
+                         [&](std::size_t at) { return block.items[at].turn; },
+                         block.scratch.walk);
             }
             if (!is_inner(v)) {
                 prepare(block, v);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/base/prefetch.hpp>
 #include <dsc/mesh/complex.hpp>
 #include <dsc/mesh/local_star.hpp>
 #include <dsc/repair/contract.hpp>
@@ -179,7 +180,7 @@ public:
         if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots());
     }
     /// Asks the memory for what known_refusal() will read; v must be in the room. [parallel]
-    void prefetch_memory(VertexId v) const { __builtin_prefetch(&memory_[v]); }
+    void prefetch_memory(VertexId v) const { prefetch_line(&memory_[v]); }
     /// Forgets all refusals, because the limits have changed.
     void forget_refusals() { memory_.clear(); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include <dsc/base/prefetch.hpp>
 #include <dsc/mesh/complex.hpp>
 
 namespace dsc::mesh {
@@ -52,7 +53,7 @@ bool Complex::link(Edit& edit) const {
     };
     walk_.places.clear();
     for (const TetId t : edit.removed) {
-        __builtin_prefetch(&neighbours_[t]);
+        prefetch_line(&neighbours_[t]);
         walk_.places.insert(t);
     }
     std::size_t open = 0;

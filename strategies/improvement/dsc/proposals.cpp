@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include <dsc/base/prefetch.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/tet_visit.hpp>
 
@@ -211,7 +212,7 @@ void Proposals::find_in_block(const repair::RepairRound& round, std::size_t begi
         const mesh::Complex& c = round.complex;
         const auto& v = c.tet(t).v;
         if (static_cast<double>(c.quality(t)) < limits_.smooth_below) {
-            for (const mesh::VertexId x : v) __builtin_prefetch(&first_[x]);
+            for (const mesh::VertexId x : v) prefetch_line(&first_[x]);
         }
         return c.on_interface(v[0]) + c.on_interface(v[1]) + c.on_interface(v[2]) +
                    c.on_interface(v[3]) >=

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <dsc/base/large_vector.hpp>
+#include <dsc/base/prefetch.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/vec.hpp>
 #include <dsc/mesh/star_cache.hpp>
@@ -165,30 +166,47 @@ public:
     bool exceeds_caches() const { return tets_.size() >= 30'000; }
     /// Asks the memory for a tet that will be read soon, or for the vertices of one that is there
     /// already.
-    void prefetch(TetId t) const { __builtin_prefetch(&tets_[t]); }
+    void prefetch(TetId t) const { prefetch_line(&tets_[t]); }
     void prefetch_vertices(TetId t) const {
         for (const VertexId v : tets_[t].v) {
-            if (v != none) __builtin_prefetch(&vertices_[v]);
+            if (v != none) prefetch_line(&vertices_[v]);
         }
     }
-    void prefetch_vertex(VertexId v) const { __builtin_prefetch(&vertices_[v]); }
+    void prefetch_vertex(VertexId v) const { prefetch_line(&vertices_[v]); }
     /// The same for what lies across the faces of a tet: first for where it is stored, then for the
     /// tets there.
-    void prefetch_codes(TetId t) const { __builtin_prefetch(&neighbours_[t]); }
+    void prefetch_codes(TetId t) const { prefetch_line(&neighbours_[t]); }
     void prefetch_across(TetId t) const {
         for (const std::uint32_t code : neighbours_[t]) {
             if (code != none) prefetch(neighbour_tet(code));
         }
     }
 
-    /// The same for a star: first where it is stored, then its ids, then its tets and neighbours as
-    /// far as they are stored. Each call needs what the one before has fetched.
-    void prefetch_star_entry(VertexId v) const { stars_.prefetch(v); }
-    void prefetch_star(VertexId v) const { stars_.prefetch_ids(v); }
+    /// The same for the star of a vertex that is alive: first where it is stored, then its ids, then
+    /// its tets and neighbours. Each call needs what the one before has fetched. If the star is not
+    /// known, they ask for what its walk reads first.
+    void prefetch_star_entry(VertexId v) const {
+        stars_.prefetch(v);
+        prefetch_line(&shapes_[v]);
+    }
+    void prefetch_star(VertexId v) const {
+        if (knows_star(v)) return stars_.prefetch_ids(v);
+        prefetch_tet(seed(v));
+    }
     void prefetch_star_tets(VertexId v) const {
         for (const TetId t : stars_.tets(v)) prefetch(t);
-        for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w]);
+        for (const VertexId w : stars_.neighbours(v)) prefetch_vertex(w);
+        if (knows_star(v)) return;
+        for (const std::uint32_t code : neighbours_[seed(v)]) {
+            if (code != none) prefetch_tet(neighbour_tet(code));
+        }
     }
+    void prefetch_tet(TetId t) const {
+        prefetch(t);
+        prefetch_codes(t);
+    }
+    /// Whether cached_star() has the star without a walk.
+    bool knows_star(VertexId v) const { return !stars_.tets(v).empty(); }
 
     // ---- walks ----------------------------------------------------------------------------------
     /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`.

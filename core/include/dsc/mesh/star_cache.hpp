@@ -7,6 +7,7 @@
 #include <span>
 
 #include <dsc/base/large_vector.hpp>
+#include <dsc/base/prefetch.hpp>
 
 namespace dsc::mesh {
 
@@ -32,13 +33,15 @@ public:
     }
 
     /// Asks the memory for the entry of a vertex that will be read soon.
-    void prefetch(std::uint32_t v) const { __builtin_prefetch(&entries_[v]); }
+    void prefetch(std::uint32_t v) const { prefetch_line(&entries_[v]); }
     /// The same for the ids of an entry that is there already.
     void prefetch_ids(std::uint32_t v) const {
         constexpr unsigned line = 16;  // ids in a line of the caches
         const Entry& entry = entries_[v];
         const unsigned count = static_cast<unsigned>(entry.tets) + entry.neighbours;
-        for (unsigned i = 0; i < count; i += line) __builtin_prefetch(entry.ids + i);
+        if (count == 0) return;
+        for (unsigned i = 0; i < count; i += line) prefetch_line(entry.ids + i);
+        prefetch_line(entry.ids + count - 1);  // often in one line more
     }
 
     /// The tets of the star in the order of the walk; empty if they are not known.
