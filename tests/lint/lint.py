@@ -188,6 +188,13 @@ def banned_headers(tree):
             yield path, number, f"<{header}> does not work with every supported compiler"
 
 
+def prefetching(tree):
+    """g++ removes the calls of a function that only uses the builtin."""
+    for path, number, line in tree.lines(SOURCE, tuple(f"{name}/" for name in sorted(TOP_LEVEL))):
+        if "__builtin_prefetch" in line and path != "core/include/dsc/base/prefetch.hpp":
+            yield path, number, "use prefetch_line() of dsc/base/prefetch.hpp: g++ can remove the builtin"
+
+
 def libraries_do_not_print(tree):
     """Library code throws; printing and leaving is for the command line."""
     speaks = re.compile(r"\bstd::(cout|cerr|clog|exit|quick_exit|abort|terminate)\b|(?<![\w.:>])f?printf\s*\(|\bputs\s*\(")
@@ -378,7 +385,7 @@ def form(tree):
 
 RULES = [
     third_party_walls, core_direction, declared_direction, strategy_direction, plugin_direction, nobody_uses_the_app,
-    banned_headers, libraries_do_not_print, header_guards, short_files, file_local_names, open_ends, machine_paths, top_level, readme_commands,
+    banned_headers, prefetching, libraries_do_not_print, header_guards, short_files, file_local_names, open_ends, machine_paths, top_level, readme_commands,
     paper_keys, linked_pages, plain_english, error_codes, form,
 ]
 

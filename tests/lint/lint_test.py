@@ -78,6 +78,7 @@ PLANTED = {
         ("tests/unit/base/text_test.cpp", "#include <ranges>"),
         (NORMAL, "#include <source_location>"),
     ],
+    "prefetching": [("core/src/mesh/adopt.cpp", "__builtin_prefetch(&tets_[t]);")],
     "libraries_do_not_print": [
         ("core/src/mesh/adopt.cpp", "std::cerr << 1;"),
         ("core/src/mesh/adopt.cpp", "    printf(\"x\");"),

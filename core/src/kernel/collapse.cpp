@@ -51,8 +51,8 @@ public:
 
     // Must come before everything that reads the stars.
     void walk() {
-        own_.a.star = bench_.star_of(a_, own_.a.walk);
-        own_.b.star = bench_.star_of(b_, own_.b.walk);
+        own_.a.star = c_.cached_star(a_, own_.a.walk).tets;
+        own_.b.star = c_.cached_star(b_, own_.b.walk).tets;
     }
 
     float least_quality_of_stars() const {

@@ -44,7 +44,7 @@ void Foresights::look(std::size_t first) {
     date_ = bench_.complex.clock();
     foresights_.assign(static_cast<std::size_t>(end - rest.begin()), {});
     while (judges_.size() * block < foresights_.size())
-        judges_.push_back(std::make_unique<Workbench>(bench_.complex, true));
+        judges_.push_back(std::make_unique<Workbench>(bench_.complex));
     for (const std::unique_ptr<Workbench>& judge : judges_) {
         judge->limits = bench_.limits;
         judge->lengths = bench_.lengths;

@@ -13,7 +13,7 @@ namespace dsc::kernel {
 /// (section 4.3).
 Outcome remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above);
 /// Whether remove_edge() would find a triangulation, or why not. A refusal holds as long as the
-/// stars of a and b do not change. [parallel] with a bench that looks only.
+/// stars of a and b do not change. [parallel] with a bench for each thread.
 Outcome may_remove(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above);
 /// Interface edge (a, b): the other diagonal of its two interface faces; the tets of both labels at
 /// the edge are re-triangulated (section 4.5).
@@ -62,7 +62,7 @@ struct Foresight {
     Refusal reason = Refusal::not_applicable;  ///< the strongest of the reasons
 };
 /// Tries the edges of an edge removal or collapse up to the first that may succeed. Nothing is
-/// certain of other requests. [parallel] with a bench that looks only.
+/// certain of other requests. [parallel] with a bench for each thread.
 Foresight foresee(Workbench& bench, const repair::Request& request);
 /// Executes a request and chooses the simplex if the request names none (section 6.1).
 Outcome execute(Workbench& bench, const repair::Request& request, const Foresight& known = {});

@@ -71,13 +71,20 @@ std::uint8_t StarLoop::leaf_of_new(mesh::VertexId v) {
     return leaf_at(complex_.position(v)) + 1;
 }
 
-// Writes leaf_of_, and the leaves of vertices that have none.
-void StarLoop::find_leaves(std::span<const mesh::VertexId> vertices, Workers& workers) {
+// Writes date_of_vertex_ and leaf_of_, and gives vertices without a leaf the leaf of a neighbour.
+// False if a vertex occurs twice, and so has two turns.
+bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& workers) {
     leaf_of_.resize(vertices.size());
-    std::atomic<bool> some_new{false};
+    std::atomic<bool> twice{false}, some_new{false};
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
-            if (turn + ahead < end) complex_.prefetch_vertex(vertices[turn + ahead]);
+            if (turn + ahead < end) {
+                complex_.prefetch_vertex(vertices[turn + ahead]);
+                prefetch_line_to_write(&date_of_vertex_[vertices[turn + ahead]]);
+            }
+            const std::atomic_ref date(date_of_vertex_[vertices[turn]]);
+            if (date.exchange(date_of(turn), std::memory_order_relaxed) > start_)
+                twice.store(true, std::memory_order_relaxed);
             const std::atomic_ref mark(complex_.mark(vertices[turn]));
             const std::uint8_t known = mark.load(std::memory_order_relaxed);
             leaf_of_[turn] = known & leaf_bits;
@@ -86,7 +93,12 @@ void StarLoop::find_leaves(std::span<const mesh::VertexId> vertices, Workers& wo
             if (leaf_of_[turn] == no_leaf) some_new.store(true, std::memory_order_relaxed);
         }
     });
-    if (!some_new) return;
+    if (twice) return false;
+    if (some_new) find_new_leaves(vertices);
+    return true;
+}
+
+void StarLoop::find_new_leaves(std::span<const mesh::VertexId> vertices) {
     for (std::size_t turn = 0; turn < vertices.size(); ++turn) {
         if (leaf_of_[turn] != no_leaf) continue;
         leaf_of_[turn] = leaf_of_new(vertices[turn]);
@@ -164,20 +176,6 @@ void StarLoop::list_changes(std::size_t p, std::span<mesh::TetId> list) const {
     }
 }
 
-// Writes date_of_vertex_; false if a vertex occurs twice, and so has two turns.
-bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& workers) {
-    std::atomic<bool> twice{false};
-    workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t turn = begin; turn < end; ++turn) {
-            if (turn + ahead < end) prefetch_line_to_write(&date_of_vertex_[vertices[turn + ahead]]);
-            const std::atomic_ref date(date_of_vertex_[vertices[turn]]);
-            if (date.exchange(date_of(turn), std::memory_order_relaxed) > start_)
-                twice.store(true, std::memory_order_relaxed);
-        }
-    });
-    return !twice;
-}
-
 // False if the items cannot be divided.
 bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers) {
     if (vertices.size() < least_split || vertices.size() >= no_turn) return false;
@@ -187,15 +185,15 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     if (date_of_vertex_.size() < complex_.vertex_slots()) {
         date_of_vertex_.resize(complex_.vertex_slots(), 0);
     }
-    if (!take_turns(vertices, workers)) return false;
     complex_.take_reshaped(reshaped_);
     for (const mesh::VertexId v : reshaped_) complex_.mark(v) &= leaf_bits | listed_bit;
     const bool is_new = loops_++ % most_loops == 0;
     if (is_new) make_planes(vertices);
-    find_leaves(vertices, workers);
+    if (!take_turns(vertices, workers)) return false;
     if (!is_new && !is_balanced()) {
         make_planes(vertices);
-        find_leaves(vertices, workers);
+        std::fill(leaf_of_.begin(), leaf_of_.end(), no_leaf);
+        find_new_leaves(vertices);
     }
     fill_blocks(workers);
     for (Block& block : blocks_) {

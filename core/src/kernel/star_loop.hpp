@@ -54,8 +54,9 @@ public:
         start_ = complex_.clock();
         if (workers == nullptr || workers->threads() < 2 || !divide(vertices, *workers)) {
             for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-                prefetch(vertices, action, i, vertices.size(), [](std::size_t at) { return at; },
-                         blocks_.front().scratch.walk);
+                prefetch(
+                    vertices, action, i, vertices.size(), [](std::size_t at) { return at; },
+                    blocks_.front().scratch.walk);
                 run_one(vertices[i], i, action);
             }
             complex_.advance_clock(date_of(vertices.size()) - 1);
@@ -78,7 +79,7 @@ public:
     }
 
 private:
-    static constexpr unsigned most_levels = 5;  // of the tree that divides space
+    static constexpr unsigned most_levels = 4;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_turn = 0xffffffffU;
     // The mark of a vertex contains the number of its leaf of the tree plus 1, a bit that is set if
@@ -89,7 +90,8 @@ private:
                                   inner_bit = 0x80;
     static_assert(leaf_bits < listed_bit);
     static constexpr std::size_t next = 1, near = 3, far = 6, farther = 12;  // how far ahead the
-                                                                   // memory is asked for data
+                                                                             // memory is asked for
+                                                                             // data
 
     // A vertex at its turn.
     struct Item {
@@ -150,7 +152,7 @@ private:
     bool divide(std::span<const mesh::VertexId> vertices, Workers& workers);
     void make_planes(std::span<const mesh::VertexId> vertices);
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
-    void find_leaves(std::span<const mesh::VertexId> vertices, Workers& workers);
+    void find_new_leaves(std::span<const mesh::VertexId> vertices);
     void fill_blocks(Workers& workers);
     std::uint8_t leaf_of_new(mesh::VertexId v);
     bool take_turns(std::span<const mesh::VertexId> vertices, Workers& workers);
@@ -225,6 +227,15 @@ private:
         }
     }
 
+    // Asks the memory for the dates that is_free() will read.
+    void prefetch_dates(std::span<const mesh::VertexId> vertices, Block& block) {
+        if (!complex_.exceeds_caches() || block.next + near >= block.items.size()) return;
+        const mesh::VertexId v = vertices[block.items[block.next + near].turn];
+        if (is_inner(v) || !complex_.knows_star(v)) return;
+        for (const mesh::VertexId w : complex_.cached_star(v, block.scratch.walk).neighbours)
+            prefetch_line(&date_of_vertex_[w]);
+    }
+
     template <class Action>
     void run_one(mesh::VertexId v, std::uint32_t i, Action& action) {
         StarScratch& scratch = blocks_.front().scratch;
@@ -271,9 +282,10 @@ private:
             Item& item = block.items[block.next];
             const mesh::VertexId v = vertices[item.turn];
             if (!block.prepared) {
-                prefetch(vertices, action, block.next, block.items.size(),
-                         [&](std::size_t at) { return block.items[at].turn; },
-                         block.scratch.walk);
+                prefetch(
+                    vertices, action, block.next, block.items.size(),
+                    [&](std::size_t at) { return block.items[at].turn; }, block.scratch.walk);
+                prefetch_dates(vertices, block);
             }
             if (!is_inner(v)) {
                 prepare(block, v);
@@ -327,11 +339,25 @@ private:
         if (!action.attempt(item.turn, scratch, date_of(item.turn))) return;
         complex_.place(v, scratch.place, scratch.star.tets, scratch.qualities);
         const std::size_t before = block.changes.changed.size();
-        complex_.date_move(v, scratch.star, date_of(item.turn), block.changes,
-                           [&, own = block_of(mark_of(v))](mesh::VertexId w) {
-                               return dating(block, own, w, date_of(item.turn));
-                           });
+        date_star(block, v, date_of(item.turn));
         item.changes = static_cast<std::uint32_t>(block.changes.changed.size() - before);
+    }
+
+    // All neighbours of an inner vertex are in its leaf. Then one question is enough for each,
+    // which nearly always has the same answer.
+    void date_star(Block& block, mesh::VertexId v, std::uint32_t date) {
+        using enum mesh::Complex::Dating;
+        const std::uint8_t mark = mark_of(v);
+        if ((mark & inner_bit) != 0) {
+            complex_.date_move(v, block.scratch.star, date, block.changes, [&](mesh::VertexId w) {
+                return (mark_of(w) & (inner_bit | listed_bit)) == listed_bit ? together : alone;
+            });
+        } else {
+            complex_.date_move(v, block.scratch.star, date, block.changes,
+                               [&, own = block_of(mark)](mesh::VertexId w) {
+                                   return dating(block, own, w, date);
+                               });
+        }
     }
 
     // How vertex w, which has a leaf, gets the date of a move in block `own`. Nobody asks for the

@@ -24,7 +24,11 @@ void Deformer::State::begin_step(std::span<const VertexId> vertices,
     const Vec3 high = complex.box().high.array() - 2.0 * length;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const VertexId v = vertices[i];
-        if (i + ahead < vertices.size()) destinations.prefetch(vertices[i + ahead]);
+        if (i + ahead < vertices.size()) {
+            complex.prefetch_vertex(vertices[i + ahead]);
+            complex.prefetch_birth(vertices[i + ahead]);
+            destinations.prefetch(vertices[i + ahead]);
+        }
         // In this order, so that a vertex without displacement is not even looked at.
         if (displacements[i].isZero(0.0) || !complex.movable(v)) continue;
         ++report.requested;
@@ -56,16 +60,19 @@ struct Deformer::State::Smoothing {
     StepReport& report;
 
     const repair::Request& request(std::size_t i) const { return state.requests[first + i]; }
-    void prefetch(std::size_t i) const { state.bench.prefetch_memory(request(i).vertices[0]); }
+    void prefetch(std::size_t i) const {
+        state.bench.prefetch_memory(state.smoothed[i]);
+        prefetch_line(&request(i));
+    }
     bool decide(std::size_t i, Outcome outcome) const {
         state.outcomes[first + i] = outcome;
         return !outcome.refused();
     }
     bool ready(std::size_t i) const {
-        return decide(i, may_smooth(state.bench, request(i).vertices[0], request(i).accept_above));
+        return decide(i, may_smooth(state.bench, state.smoothed[i], request(i).accept_above));
     }
     bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t date) const {
-        const VertexId v = request(i).vertices[0];
+        const VertexId v = state.smoothed[i];
         const float accept_above = request(i).accept_above;
         const Outcome outcome =
             plan_laplacian(state.complex, state.bench.limits, v, accept_above, scratch);

@@ -192,7 +192,7 @@ bool Workbench::flat(VertexId v) {
 }
 
 bool Workbench::find_flat(VertexId v) {
-    interface_fan(v, star_of(v, flat_walk_), fan_);
+    interface_fan(v, complex.cached_star(v, flat_walk_).tets, fan_);
     normals_.clear();
     for (const auto& face : fan_) {
         normals_.push_back(geometry::triangle_normal(

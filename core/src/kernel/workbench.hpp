@@ -95,10 +95,7 @@ public:
     /// The kinds of smoothing for which refusals are remembered.
     enum class Smoother : std::uint8_t { laplacian, optimise };
 
-    /// `looks_only`: other threads read the complex at the same time. Then the bench tests edits,
-    /// but does not commit any, and the cache of stars is not written.
-    explicit Workbench(mesh::Complex& target, bool looks_only = false)
-        : complex(target), star_(target), looks_only_(looks_only) {}
+    explicit Workbench(mesh::Complex& target) : complex(target), star_(target) {}
 
     mesh::Complex& complex;
     Limits limits;
@@ -194,14 +191,8 @@ public:
 
     mesh::LocalStar& local_star() { return star_; }
 
-    /// The tets of the star of v, until the next call with the same `walk`.
-    std::span<const TetId> star_of(VertexId v, mesh::StarWalk& walk) const {
-        return looks_only_ ? complex.unstored_star(v, walk) : complex.cached_star(v, walk).tets;
-    }
-
 private:
     mesh::LocalStar star_;
-    bool looks_only_;
     std::uint32_t new_vertex_epoch();
 
     bool find_flat(VertexId v);

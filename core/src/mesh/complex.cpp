@@ -56,7 +56,7 @@ TetId Complex::allocate_tet() {
 }
 
 void Complex::touch(TetId t) {
-    note(t, clock_, lists_);
+    note({&t, 1}, clock_, lists_);
     for (const VertexId v : tets_[t].v) vertices_[v].date = clock_;
 }
 

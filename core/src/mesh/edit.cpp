@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include <dsc/base/prefetch.hpp>
 #include <dsc/mesh/complex.hpp>
 
 namespace dsc::mesh {
@@ -53,8 +52,10 @@ bool Complex::link(Edit& edit) const {
     };
     walk_.places.clear();
     for (const TetId t : edit.removed) {
-        prefetch_line(&neighbours_[t]);
+        prefetch_codes(t);
         walk_.places.insert(t);
+        // For replace().
+        for (const VertexId v : tets_[t].v) prefetch_star_entry(v);
     }
     std::size_t open = 0;
     for (const TetId t : edit.removed) {

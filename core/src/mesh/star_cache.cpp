@@ -87,11 +87,14 @@ void StarCache::keep(std::uint32_t v, std::span<const std::uint32_t> tets,
                      std::span<const std::uint32_t> neighbours) {
     if (std::max(tets.size(), neighbours.size()) > most_tets) return;
     Entry& entry = entries_[v];
+    const std::atomic_ref known(entry.tets);
+    std::uint16_t before = 0;
+    if (!known.compare_exchange_strong(before, being_stored, std::memory_order_acquire)) return;
     reserve(entry, tets.size() + neighbours.size());
     std::copy(tets.begin(), tets.end(), entry.ids);
     std::copy(neighbours.begin(), neighbours.end(), entry.ids + tets.size());
-    entry.tets = static_cast<std::uint16_t>(tets.size());
     entry.neighbours = static_cast<std::uint16_t>(neighbours.size());
+    known.store(static_cast<std::uint16_t>(tets.size()), std::memory_order_release);
 }
 
 }  // namespace dsc::mesh

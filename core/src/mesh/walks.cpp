@@ -1,7 +1,6 @@
 // Walks through the complex: star of a vertex, ring of an edge, edges of the interface (method.md,
 // section 1.1).
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include <dsc/base/prefetch.hpp>
@@ -63,65 +62,6 @@ std::array<VertexId, 2> opposite_edge(const Tet& tet, VertexId a, VertexId b) {
     return {tet.v[k], tet.v[l]};
 }
 
-// The ids that a walk has met, for stars of usual size: small enough to be made for each walk.
-class MetIds {
-public:
-    static constexpr std::size_t most = 96;
-    MetIds() { std::memset(ids_.data(), 0xff, sizeof ids_); }
-    /// False if the id was there already. Without a branch on that, as in TetIndex.
-    bool insert(std::uint32_t id) {
-        std::size_t at = (id * std::uint64_t{0x9e3779b1U} >> 12U) & (slots - 1);
-        while (ids_[at] != none && ids_[at] != id) at = (at + 1) & (slots - 1);
-        const bool is_new = ids_[at] == none;
-        ids_[at] = id;
-        return is_new;
-    }
-
-private:
-    static constexpr std::size_t slots = 256;
-    std::array<std::uint32_t, slots> ids_;
-};
-
-struct WalkStart {
-    std::span<const Tet> tets;
-    std::span<const TetNeighbours> neighbours;
-    VertexId v;
-    TetId first;
-};
-template <class Insert, class Room>
-std::size_t walk_from(const WalkStart& start, const Insert& insert, const Room& room,
-                      std::vector<std::uint32_t>& out) {
-    // Kept in registers: the compiler cannot know that writing to the list does not change them.
-    const Tet* const tets = start.tets.data();
-    const TetNeighbours* const neighbours = start.neighbours.data();
-    const VertexId v = start.v;
-    const TetId first = start.first;
-    insert(first);
-    // A code is written, and counts if its tet is new: a branch could not be predicted.
-    std::uint32_t* codes = out.data();
-    std::size_t count = 0;
-    const auto visit = [&](std::uint32_t code) {
-        if (code == none) return;
-        prefetch_line(tets + neighbour_tet(code));  // its turn comes soon
-        prefetch_line(neighbours + neighbour_tet(code));
-        codes[count] = code;
-        count += insert(neighbour_tet(code)) ? 1 : 0;
-    };
-    const unsigned own = index_of(tets[first], v);
-    codes[count++] = 4 * first + own;
-    for (unsigned f = 0; f < 4; ++f) {
-        if (f != own) visit(neighbours[first][f]);
-    }
-    for (std::size_t i = 1; i < count; ++i) {
-        if (!room(count + 2)) return count + 2;
-        codes = out.data();
-        const TetId t = neighbour_tet(codes[i]);
-        for (const unsigned f : other_corners[index_of(tets[t], v)][neighbour_face(codes[i])])
-            visit(neighbours[t][f]);
-    }
-    return count;
-}
-
 }  // namespace
 
 void Complex::star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
@@ -146,15 +86,8 @@ Star Complex::cached_star(VertexId v, StarWalk& walk) const {
     find_neighbours(v, walk.tets, walk.neighbours, walk.places);
     for (TetId& t : walk.tets) t = neighbour_tet(t);
     stars_.keep(v, walk.tets, walk.neighbours);
-    if (stars_.tets(v).empty()) return {walk.tets, walk.neighbours};
+    if (!knows_star(v)) return {walk.tets, walk.neighbours};
     return {stars_.tets(v), stars_.neighbours(v)};
-}
-
-std::span<const TetId> Complex::unstored_star(VertexId v, StarWalk& walk) const {
-    if (const std::span<const TetId> known = stars_.tets(v); !known.empty()) return known;
-    walk_codes(v, walk.tets, walk.places);
-    for (TetId& t : walk.tets) t = neighbour_tet(t);
-    return walk.tets;
 }
 
 // `codes` are those of walk_codes(). Each tet has one corner that the tet before it on the walk
@@ -168,14 +101,14 @@ void Complex::find_neighbours(VertexId v, std::span<const std::uint32_t> codes,
         if (w == v) continue;
         seen.insert(w);
         out[count++] = w;
-        prefetch_line(&births_[w]);
-        prefetch_line(&vertices_[w]);
+        prefetch_birth(w);
+        prefetch_vertex(w);  // whoever asks for the neighbours reads their positions
     }
     // As in walk_codes().
     for (const std::uint32_t code : codes.subspan(1)) {
         out[count] = tets_[neighbour_tet(code)].v[neighbour_face(code)];
-        prefetch_line(&births_[out[count]]);
-        prefetch_line(&vertices_[out[count]]);
+        prefetch_birth(out[count]);
+        prefetch_vertex(out[count]);
         count += seen.insert(out[count]) ? 1 : 0;
     }
     out.resize(count);
@@ -208,35 +141,41 @@ void Complex::sort_by_birth(std::vector<VertexId>& list) const {
 
 void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
     walk_codes(v, out, places);
-    places.clear();
-    for (TetId& t : out) {
-        t = neighbour_tet(t);
-        places.insert(t);
-    }
+    for (TetId& t : out) t = neighbour_tet(t);
 }
 
 // `out` receives codes: the tet, and the face through which it was reached, because nothing new
 // lies behind that face. The first tet was reached through no face at v, so it has the face
 // opposite v.
 void Complex::walk_codes(VertexId v, std::vector<std::uint32_t>& out, TetIndex& places) const {
-    if (out.size() < MetIds::most + 2) out.resize(MetIds::most + 2);
-    MetIds met;
-    const std::size_t count = walk_from(
-        {tets_, neighbours_, v, shapes_[v].seed}, [&](std::uint32_t id) { return met.insert(id); },
-        [&](std::size_t needed) { return needed <= MetIds::most + 2; }, out);
-    if (count <= MetIds::most) {
-        out.resize(count);
-        return;
-    }
     places.clear();
-    out.resize(walk_from(
-        {tets_, neighbours_, v, shapes_[v].seed},
-        [&](std::uint32_t id) { return places.insert(id); },
-        [&](std::size_t needed) {
-            if (out.size() < needed) out.resize(2 * needed);
-            return true;
-        },
-        out));
+    // Kept in a register: the compiler cannot know that writing to the table does not change it.
+    const Tet* const tets = tets_.data();
+    const TetNeighbours* const neighbours = neighbours_.data();
+    const TetId first = shapes_[v].seed;
+    places.insert(first);
+    // A code is written, and counts if its tet is new: a branch could not be predicted.
+    if (out.size() < 64) out.resize(64);
+    std::size_t count = 0;
+    const auto visit = [&](std::uint32_t code) {
+        if (code == none) return;
+        prefetch_line(tets + neighbour_tet(code));  // its turn comes soon
+        prefetch_line(neighbours + neighbour_tet(code));
+        out[count] = code;
+        count += places.insert(neighbour_tet(code)) ? 1 : 0;
+    };
+    const unsigned own = index_of(tets[first], v);
+    out[count++] = 4 * first + own;
+    for (unsigned f = 0; f < 4; ++f) {
+        if (f != own) visit(neighbours[first][f]);
+    }
+    for (std::size_t i = 1; i < count; ++i) {
+        if (out.size() < count + 2) out.resize(2 * count);
+        const TetId t = neighbour_tet(out[i]);
+        for (const unsigned f : other_corners[index_of(tets[t], v)][neighbour_face(out[i])])
+            visit(neighbours[t][f]);
+    }
+    out.resize(count);
 }
 
 void Complex::ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const {

@@ -57,7 +57,7 @@ TEST_CASE("foresight: requests that are judged ahead have the same outcomes and 
         for (int round = 0; round < 25; ++round) {
             const std::vector<repair::Request> requests = random_requests(plain, random);
             foresights.start(requests, &workers);
-            Workbench judge(judged, true);
+            Workbench judge(judged);
             judge.limits = judged_bench.limits;
             std::vector<Foresight> at_start;
             for (const repair::Request& request : requests)

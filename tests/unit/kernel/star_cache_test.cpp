@@ -1,9 +1,11 @@
 // What the complex stores round a vertex is what a walk finds, after any sequence of operations.
 #include <algorithm>
+#include <atomic>
 
 #include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
+#include <dsc/base/workers.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/adopt.hpp>
 
@@ -126,6 +128,41 @@ TEST_CASE("stored stars, neighbours and shape dates follow every operation") {
     CHECK(moved > 500);
     CHECK(changed > 500);
     CHECK(kept > 5 * changed);
+}
+
+TEST_CASE("threads that ask for the same stars at the same time get those of a walk") {
+    std::atomic<std::size_t> compared{0}, different{0};
+    Workers workers(4);
+    for (const test::LabelledMesh& labelled : test::labelled_meshes()) {
+        const mesh::Complex walked = labelled.complex;
+        const Stars stars = scan(walked);
+        for (int repeat = 0; repeat < 5; ++repeat) {
+            const mesh::Complex c = labelled.complex;  // a copy has no stored stars
+            // Each vertex is asked for four times in a row, by different threads.
+            workers.for_blocks(4 * c.vertex_slots(), 1, [&](std::size_t begin, std::size_t) {
+                const auto v = static_cast<VertexId>(begin / 4);
+                if (!c.vertex_alive(v)) return;
+                thread_local mesh::StarWalk walk, own_walk;
+                thread_local mesh::TetIndex places;
+                thread_local std::vector<TetId> expected;
+                const mesh::Star star = c.cached_star(v, walk);
+                if (repeat == 0) {
+                    walked.star(v, expected, places);
+                    different += expected.size() == stars[v].size() ? 0U : 1U;
+                } else {
+                    const mesh::Star again = c.cached_star(v, own_walk);
+                    expected.assign(again.tets.begin(), again.tets.end());
+                }
+                const bool same = std::equal(star.tets.begin(), star.tets.end(), expected.begin(),
+                                             expected.end());
+                different += same ? 0U : 1U;
+                ++compared;
+            });
+            check_cache(c, stars);
+        }
+    }
+    CHECK(compared > 10000);
+    CHECK(different == 0);
 }
 
 TEST_CASE("the watched tets are those that have changed since the start, each once, whatever was "

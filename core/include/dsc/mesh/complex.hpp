@@ -18,6 +18,7 @@
 #include <dsc/base/prefetch.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/vec.hpp>
+#include <dsc/mesh/edit.hpp>
 #include <dsc/mesh/star_cache.hpp>
 #include <dsc/mesh/tet.hpp>
 #include <dsc/mesh/tet_index.hpp>
@@ -29,43 +30,6 @@ class StateWriter;
 }  // namespace dsc
 
 namespace dsc::mesh {
-
-/// The tets round an edge ab in rotation order. tets[i] has the vertices a, b, link[i], link[i+1],
-/// and orient3d(a, b, link[i], link[i+1]) == 1. A closed ring has as many link entries as tets
-/// (indices wrap); an open ring (an edge on the box) has one more.
-struct EdgeRing {
-    std::vector<TetId> tets;
-    std::vector<VertexId> link;
-    bool closed = false;
-};
-
-/// A tet that an Edit adds; vertices in positive order, `created_vertex` allowed.
-struct NewTet {
-    std::array<VertexId, 4> v;
-    Label label;
-};
-
-/// A cavity and the tets that fill it (method.md, section 4.1); every local operation is one edit.
-/// Reuse one object: nothing is allocated after its arrays have grown.
-struct Edit {
-    std::vector<TetId> removed;
-    std::vector<NewTet> added;
-    VertexId moved = none;  ///< an existing vertex whose position changes with the edit; all its
-                            ///< tets must be removed
-    Vec3 moved_to = Vec3::Zero();
-    bool creates = false;  ///< the edit makes one vertex
-    Vec3 created_at = Vec3::Zero();
-    VertexId deleted = none;  ///< a vertex that no added tet uses; all its tets must be removed
-
-    // Filled by Complex::link(): neighbours of the added tets. An entry is a code 4*tet+face
-    // outside the cavity, none, or virtual_code + 4*i+face for added tet i.
-    std::vector<std::array<std::uint32_t, 4>> neighbours;
-    // Filled by the caller's evaluation. If it is empty, replace() computes them.
-    std::vector<float> qualities;
-
-    static constexpr std::uint32_t virtual_code = 0x80000000U;
-    void clear();
-};
 
 /// The tets round a vertex in the order of the walk, and the vertices joined to it in ascending
 /// birth order.
@@ -173,6 +137,7 @@ public:
         }
     }
     void prefetch_vertex(VertexId v) const { prefetch_line(&vertices_[v]); }
+    void prefetch_birth(VertexId v) const { prefetch_line(&births_[v]); }
     /// The same for what lies across the faces of a tet: first for where it is stored, then for the
     /// tets there.
     void prefetch_codes(TetId t) const { prefetch_line(&neighbours_[t]); }
@@ -182,9 +147,9 @@ public:
         }
     }
 
-    /// The same for the star of a vertex that is alive: first where it is stored, then its ids, then
-    /// its tets and neighbours. Each call needs what the one before has fetched. If the star is not
-    /// known, they ask for what its walk reads first.
+    /// The same for the star of a vertex that is alive: first where it is stored, then its ids,
+    /// then its tets and neighbours. Each call needs what the one before has fetched. If the star
+    /// is not known, they ask for what its walk reads first.
     void prefetch_star_entry(VertexId v) const {
         stars_.prefetch(v);
         prefetch_line(&shapes_[v]);
@@ -215,15 +180,12 @@ public:
     /// The same tets without the places. [step]
     void star(VertexId v, std::vector<TetId>& out) const;
     /// The same tets and the neighbours without a copy: they lie in the cache, or in `walk` if
-    /// there are very many. They stay there until the next call for the same vertex or with the
-    /// same `walk`. [parallel] if no two threads ask for the same vertex.
+    /// there are very many or another thread is storing them. They stay there until the next call
+    /// with the same `walk`, or until the star changes. [parallel]
     Star cached_star(VertexId v, StarWalk& walk) const;
-    /// The tets of the star from the cache, or of a new walk, which is not stored. They stay until
-    /// the next call with the same `walk`. [parallel] while nobody writes to the cache.
-    std::span<const TetId> unstored_star(VertexId v, StarWalk& walk) const;
     /// The place in v's star of the tet that refused a move of v last. It is only a hint where to
-    /// look first: it may be any number, and nothing may depend on it but the time. [parallel] as
-    /// cached_star().
+    /// look first: it may be any number, and nothing may depend on it but the time. [parallel] if
+    /// no two threads ask for the same vertex.
     std::size_t suspect(VertexId v) const { return stars_.suspect(v); }
     void keep_suspect(VertexId v, std::size_t place) const { stars_.keep_suspect(v, place); }
     TetId seed(VertexId v) const { return shapes_[v].seed; }
@@ -353,12 +315,7 @@ private:
         shape_clock_ = clock_;
         if (std::exchange(shapes_[v].date, clock_) <= reshaped_since_) reshaped_.push_back(v);
     }
-    void note(TetId t, std::uint32_t date, ChangeLists& lists) {
-        const std::uint32_t before = std::exchange(tets_[t].date, date);
-        if (before > taken_clock_) return;
-        lists.changed.push_back(t);
-        if (before < watched_since_) lists.watched.push_back(t);
-    }
+    void note(std::span<const TetId> tets, std::uint32_t date, ChangeLists& lists);
     bool find_relabelled(const Edit& edit);
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
     void refresh_phases(VertexId v);
@@ -410,10 +367,26 @@ private:
     mutable std::uint32_t face_stamp_ = 0;
 };
 
+// Dates the tets and lists those that are not on the lists yet.
+inline void Complex::note(std::span<const TetId> tets, std::uint32_t date, ChangeLists& lists) {
+    // A tet is written, and counts if it is not on the list: a branch could not be predicted.
+    std::size_t count = lists.changed.size();
+    lists.changed.resize(count + tets.size());
+    TetId* const changed = lists.changed.data();
+    const std::uint32_t taken = taken_clock_, watched_since = watched_since_;  // not after `taken`
+    for (const TetId t : tets) {
+        const std::uint32_t before = std::exchange(tets_[t].date, date);
+        changed[count] = t;
+        count += before <= taken ? 1 : 0;
+        if (before < watched_since) lists.watched.push_back(t);
+    }
+    lists.changed.resize(count);
+}
+
 template <class HowToDate>
 void Complex::date_move(VertexId v, const Star& star, std::uint32_t date, ChangeLists& changes,
                         const HowToDate& dating) {
-    for (const TetId t : star.tets) note(t, date, changes);
+    note(star.tets, date, changes);
     const auto raise = [this, date, &dating](VertexId w) {
         switch (dating(w)) {
             case Dating::alone: vertices_[w].date = date; break;

@@ -2,6 +2,7 @@
 // The stars and neighbours of vertices, stored until the connectivity round the vertex changes, and
 // which tet of a star refused a move last.
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -15,8 +16,9 @@ namespace dsc::mesh {
 /// kernel asks for have not changed since the last time, because moves and new labels leave the
 /// connectivity as it is.
 ///
-/// Different vertices may be written by different threads at the same time; grow() and forget()
-/// are for one thread.
+/// Several threads may ask for stars and store them at the same time, also those of one vertex; the
+/// hints of different vertices are independent of each other. grow() and forget() are for one
+/// thread, while no other one uses the cache.
 class StarCache {
 public:
     StarCache();
@@ -38,8 +40,8 @@ public:
     void prefetch_ids(std::uint32_t v) const {
         constexpr unsigned line = 16;  // ids in a line of the caches
         const Entry& entry = entries_[v];
+        if (!is_known(entry)) return;
         const unsigned count = static_cast<unsigned>(entry.tets) + entry.neighbours;
-        if (count == 0) return;
         for (unsigned i = 0; i < count; i += line) prefetch_line(entry.ids + i);
         prefetch_line(entry.ids + count - 1);  // often in one line more
     }
@@ -47,16 +49,18 @@ public:
     /// The tets of the star in the order of the walk; empty if they are not known.
     std::span<const std::uint32_t> tets(std::uint32_t v) const {
         const Entry& entry = entries_[v];
+        if (!is_known(entry)) return {};
         return {entry.ids, entry.tets};
     }
     /// The neighbours in ascending birth order; empty if they are not known.
     std::span<const std::uint32_t> neighbours(std::uint32_t v) const {
         const Entry& entry = entries_[v];
+        if (!is_known(entry)) return {};
         return {entry.ids + entry.tets, entry.neighbours};
     }
 
     /// Stores the tets and the neighbours, which must lie outside the cache. A very large star is
-    /// not stored.
+    /// not stored, and neither is one that another thread stores.
     void keep(std::uint32_t v, std::span<const std::uint32_t> tets,
               std::span<const std::uint32_t> neighbours);
     /// The star has changed. Its memory is used again.
@@ -70,13 +74,18 @@ public:
 
 private:
     struct Entry {
-        std::uint32_t* ids = nullptr;  // the tets, then the neighbours; belongs to the pool
-        std::uint16_t tets = 0;
+        std::uint32_t* ids = nullptr;    // the tets, then the neighbours; belongs to the pool
+        mutable std::uint16_t tets = 0;  // 0: not known; written after all others
         std::uint16_t neighbours = 0;
         std::uint16_t capacity = 0;
         std::uint16_t suspect = 0;
     };
     static_assert(sizeof(Entry) == 16);
+    static constexpr std::uint16_t being_stored = 0xffff;  // instead of the number of tets
+    static bool is_known(const Entry& entry) {
+        const std::uint16_t tets = std::atomic_ref(entry.tets).load(std::memory_order_acquire);
+        return tets != 0 && tets != being_stored;
+    }
     class Pool;
     void reserve(Entry& entry, std::size_t wanted);
 
