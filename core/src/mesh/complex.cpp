@@ -56,7 +56,10 @@ TetId Complex::allocate_tet() {
 }
 
 void Complex::touch(TetId t) {
-    note({&t, 1}, clock_, lists_);
+    // As note().
+    const std::uint32_t before = std::exchange(tets_[t].date, clock_);
+    if (before <= taken_clock_) lists_.changed.push_back(t);
+    if (before < watched_since_) lists_.watched.push_back(t);
     for (const VertexId v : tets_[t].v) vertices_[v].date = clock_;
 }
 

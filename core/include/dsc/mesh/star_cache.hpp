@@ -38,25 +38,28 @@ public:
     void prefetch(std::uint32_t v) const { prefetch_line(&entries_[v]); }
     /// The same for the ids of an entry that is there already.
     void prefetch_ids(std::uint32_t v) const {
-        constexpr unsigned line = 16;  // ids in a line of the caches
+        constexpr std::size_t line = 16;  // ids in a line of the caches
         const Entry& entry = entries_[v];
-        if (!is_known(entry)) return;
-        const unsigned count = static_cast<unsigned>(entry.tets) + entry.neighbours;
-        for (unsigned i = 0; i < count; i += line) prefetch_line(entry.ids + i);
+        const std::size_t tets = known_tets(entry);
+        if (tets == 0) return;
+        const std::size_t count = tets + entry.neighbours;
+        for (std::size_t i = 0; i < count; i += line) prefetch_line(entry.ids + i);
         prefetch_line(entry.ids + count - 1);  // often in one line more
     }
 
     /// The tets of the star in the order of the walk; empty if they are not known.
     std::span<const std::uint32_t> tets(std::uint32_t v) const {
         const Entry& entry = entries_[v];
-        if (!is_known(entry)) return {};
-        return {entry.ids, entry.tets};
+        const std::size_t count = known_tets(entry);
+        if (count == 0) return {};
+        return {entry.ids, count};
     }
     /// The neighbours in ascending birth order; empty if they are not known.
     std::span<const std::uint32_t> neighbours(std::uint32_t v) const {
         const Entry& entry = entries_[v];
-        if (!is_known(entry)) return {};
-        return {entry.ids + entry.tets, entry.neighbours};
+        const std::size_t count = known_tets(entry);
+        if (count == 0) return {};
+        return {entry.ids + count, entry.neighbours};
     }
 
     /// Stores the tets and the neighbours, which must lie outside the cache. A very large star is
@@ -82,9 +85,10 @@ private:
     };
     static_assert(sizeof(Entry) == 16);
     static constexpr std::uint16_t being_stored = 0xffff;  // instead of the number of tets
-    static bool is_known(const Entry& entry) {
+    // How many tets are stored; 0 if none or not yet all. What it finds can be read.
+    static std::size_t known_tets(const Entry& entry) {
         const std::uint16_t tets = std::atomic_ref(entry.tets).load(std::memory_order_acquire);
-        return tets != 0 && tets != being_stored;
+        return tets == being_stored ? 0 : tets;
     }
     class Pool;
     void reserve(Entry& entry, std::size_t wanted);
