@@ -19,20 +19,40 @@ void Edit::clear() {
 
 namespace {
 
-// The vertices of a face in ascending order, found without branches, which could not be predicted.
-std::array<VertexId, 3> face_key(const std::array<VertexId, 4>& v, unsigned face) {
-    const VertexId a = v[face_vertices[face][0]], b = v[face_vertices[face][1]],
-                   c = v[face_vertices[face][2]];
-    const VertexId low = std::min(a, b), high = std::max(a, b), above = std::max(low, c);
-    return {std::min(low, c), std::min(above, high), std::max(above, high)};
+using FaceKey = std::array<VertexId, 3>;  // the vertices of a face, in any order
+
+// Whether two faces have the same vertices, without branches, which could not be predicted.
+bool same(const FaceKey& x, const FaceKey& y) {
+    const auto contains = [&y](VertexId v) {
+        return static_cast<unsigned>(v == y[0]) | static_cast<unsigned>(v == y[1]) |
+               static_cast<unsigned>(v == y[2]);
+    };
+    return (contains(x[0]) & contains(x[1]) & contains(x[2])) != 0;
 }
 
-std::size_t hash(const std::array<VertexId, 3>& key) {
-    std::uint64_t h = key[0] * 0x9e3779b97f4a7c15ULL;
-    h = (h ^ key[1]) * 0xbf58476d1ce4e5b9ULL;
-    h = (h ^ key[2]) * 0x94d049bb133111ebULL;
-    return static_cast<std::size_t>(h >> 32U);
-}
+// The faces of a tet with their hashes: sums over the vertices, so the order does not matter.
+class Faces {
+public:
+    explicit Faces(const TetCorners& v) : v_(v) {
+        for (unsigned i = 0; i < 4; ++i) {
+            const std::uint64_t h = v[i] * 0x9e3779b97f4a7c15ULL;
+            hashes_[i] = (h ^ h >> 32U) * 0xbf58476d1ce4e5b9ULL;
+        }
+        sum_ = hashes_[0] + hashes_[1] + hashes_[2] + hashes_[3];
+    }
+    FaceKey key(unsigned face) const {
+        const auto& f = face_vertices[face];
+        return {v_[f[0]], v_[f[1]], v_[f[2]]};
+    }
+    std::size_t hash(unsigned face) const {
+        return static_cast<std::size_t>((sum_ - hashes_[face]) >> 32U);
+    }
+
+private:
+    const TetCorners& v_;
+    std::array<std::uint64_t, 4> hashes_;
+    std::uint64_t sum_;
+};
 
 }  // namespace
 
@@ -44,9 +64,9 @@ bool Complex::link(Edit& edit) const {
     }
     ++face_stamp_;
     const std::size_t mask = face_table_.size() - 1;
-    const auto find = [&](const std::array<VertexId, 3>& key) -> FaceSlot& {
-        std::size_t at = hash(key) & mask;
-        while (face_table_[at].stamp == face_stamp_ && face_table_[at].key != key)
+    const auto find = [&](const FaceKey& key, std::size_t hash) -> FaceSlot& {
+        std::size_t at = hash & mask;
+        while (face_table_[at].stamp == face_stamp_ && !same(face_table_[at].key, key))
             at = (at + 1) & mask;
         return face_table_[at];
     };
@@ -59,11 +79,12 @@ bool Complex::link(Edit& edit) const {
     }
     std::size_t open = 0;
     for (const TetId t : edit.removed) {
+        const Faces faces(tets_[t].v);
         for (unsigned f = 0; f < 4; ++f) {
             const std::uint32_t code = neighbours_[t][f];
             if (code != none && walk_.places.contains(neighbour_tet(code))) continue;
-            const auto key = face_key(tets_[t].v, f);
-            FaceSlot& slot = find(key);
+            const FaceKey key = faces.key(f);
+            FaceSlot& slot = find(key, faces.hash(f));
             if (slot.stamp == face_stamp_) return false;
             slot = {key, code, face_stamp_, false};
             ++open;
@@ -71,10 +92,11 @@ bool Complex::link(Edit& edit) const {
     }
     edit.neighbours.assign(edit.added.size(), {none, none, none, none});
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
+        const Faces faces(edit.added[i].v);
         for (unsigned f = 0; f < 4; ++f) {
-            const auto key = face_key(edit.added[i].v, f);
+            const FaceKey key = faces.key(f);
             const std::uint32_t self = Edit::virtual_code | static_cast<std::uint32_t>(4 * i + f);
-            FaceSlot& slot = find(key);
+            FaceSlot& slot = find(key, faces.hash(f));
             if (slot.stamp != face_stamp_) {
                 slot = {key, self, face_stamp_, false};
                 ++open;
