@@ -1,6 +1,5 @@
 // Linking a cavity: finds the neighbours of the added tets, among each other and across the
 // boundary of the cavity (method.md, section 4.1).
-#include <algorithm>
 #include <bit>
 
 #include <dsc/mesh/complex.hpp>
@@ -19,7 +18,8 @@ void Edit::clear() {
 
 namespace {
 
-using FaceKey = std::array<VertexId, 3>;  // the vertices of a face, in any order
+// The three vertices of a face. Their order does not matter.
+using FaceKey = std::array<VertexId, 3>;
 
 // Whether two faces have the same vertices, without branches, which could not be predicted.
 bool same(const FaceKey& x, const FaceKey& y) {

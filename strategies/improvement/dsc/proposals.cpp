@@ -311,13 +311,7 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
     });
     // 2. Bad tets, worst first: edges, interface diagonals, faces, then their free vertices one by
     // one.
-    const auto prefetch_ahead = [&c](const std::vector<Entry>& entries, const Entry& entry) {
-        constexpr std::ptrdiff_t ahead = 16;
-        const Entry* const last = entries.data() + entries.size();
-        if (last - &entry > ahead) c.prefetch((&entry)[ahead].tet);
-    };
     for (const Entry& entry : all_.low) {
-        prefetch_ahead(all_.low, entry);
         out.push_back(on_tet(c, entry.tet, Operation::edge_removal, low, 2.0));
         out.push_back(on_tet(c, entry.tet, Operation::interface_flip, low, 2.0));
         out.push_back(on_tet(c, entry.tet, Operation::face_removal, low, 2.0));
@@ -353,10 +347,8 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
         request.vertices = {edge.a, edge.b, mesh::none};
         out.push_back(request);
     }
-    for (const Entry& entry : all_.small) {
-        prefetch_ahead(all_.small, entry);
+    for (const Entry& entry : all_.small)
         out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, 2.0, low));
-    }
     // 5. Shapes and sizes of single edges, faces and tets, if their thresholds are set.
     shapes_.write(round, {static_cast<float>(degenerate), static_cast<float>(low)}, out);
 }
