@@ -205,7 +205,7 @@ public:
     /// Commits a linked edit; its tets must be positive. Returns the id of the created vertex, or
     /// none. [step]
     VertexId replace(Edit& edit);
-    /// Moves a vertex. `star`: all tets that contain the vertex. Each of these tets must be
+    /// Moves vertex v. `star` is the list of all tets that have the corner v. Each of them must be
     /// positive after the move. [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star);
     /// The same with known qualities of the tets at the new position, in the order of the star.
