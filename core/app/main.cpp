@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/heap.hpp>
 #include <dsc/run/provenance.hpp>
 
 #include "commands.hpp"
@@ -146,6 +147,7 @@ int run_and_explain(int argc, char** argv) {
 int main(int argc, char** argv) {
     dsc::app::take_standard_streams();
     dsc::app::guard_exit();
+    dsc::give_back_large_blocks();
     dsc::app::start_log({});
     return dsc::app::leave(run_and_explain(argc, argv));
 }

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/heap.hpp>
 #include <dsc/mesh/validate.hpp>
 #include <dsc/run/sha256.hpp>
 
@@ -281,5 +282,6 @@ int work(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    dsc::give_back_large_blocks();  // as in dsc
     return dsc::bench::run_program("dsc_scaling", [&] { return work(parse(argc, argv)); });
 }

@@ -32,8 +32,8 @@ class Refusal(unittest.TestCase):
         self.refused(FIXTURES / "libdsc_bad_debug_stl.so", "dbgstl is '1' in the plugin and '0' in dsc")
 
     def test_of_another_abi(self):
-        self.refused(FIXTURES / "libdsc_bad_abi_old.so", "was built for ABI 6.0, this dsc has ABI 7.0")
-        self.refused(FIXTURES / "libdsc_bad_abi_new.so", "needs ABI 7.1, this dsc has ABI 7.0")
+        self.refused(FIXTURES / "libdsc_bad_abi_old.so", "was built for ABI 7.0, this dsc has ABI 8.0")
+        self.refused(FIXTURES / "libdsc_bad_abi_new.so", "needs ABI 8.1, this dsc has ABI 8.0")
 
     def test_truncated(self):
         whole = (FIXTURES / "libdsc_good.so").read_bytes()

@@ -1,25 +1,41 @@
 // Memory in large pages.
 #include "dsc/base/large_vector.hpp"
 
+#include <cstdint>
 #include <limits>
 
 #include <sys/mman.h>
 
 namespace dsc {
+namespace {
 
-void* allocate_large_pages(std::size_t bytes) {
-    if (bytes > std::numeric_limits<std::size_t>::max() - large_page)
+std::size_t whole_pages(std::size_t bytes) {
+    if (bytes > std::numeric_limits<std::size_t>::max() - 2 * large_page)
         throw std::bad_array_new_length();
-    // Only whole pages, so that nobody else's memory shares one.
-    const std::size_t whole = (bytes + large_page - 1) / large_page * large_page;
-    void* const memory = ::operator new (whole, std::align_val_t{large_page});
-    // It is a hint: a system without large pages refuses it, and everything works all the same.
-    static_cast<void>(madvise(memory, whole, MADV_HUGEPAGE));
-    return memory;
+    return (bytes + large_page - 1) / large_page * large_page;
 }
 
-void free_large_pages(void* memory) noexcept {
-    ::operator delete (memory, std::align_val_t{large_page});
+}  // namespace
+
+// The system's own memory and not the heap's: aligned blocks would leave gaps there, and a freed
+// block goes back to the system at once.
+void* allocate_large_pages(std::size_t bytes) {
+    const std::size_t whole = whole_pages(bytes), more = whole + large_page;
+    void* const mapped =
+        mmap(nullptr, more, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (mapped == MAP_FAILED) throw std::bad_alloc();
+    auto* const start = static_cast<std::byte*>(mapped);
+    const std::size_t before =
+        (large_page - reinterpret_cast<std::uintptr_t>(mapped) % large_page) % large_page;
+    if (before > 0) munmap(start, before);
+    if (before < large_page) munmap(start + before + whole, large_page - before);
+    // It is a hint: a system without large pages refuses it, and everything works all the same.
+    static_cast<void>(madvise(start + before, whole, MADV_HUGEPAGE));
+    return start + before;
+}
+
+void free_large_pages(void* memory, std::size_t bytes) noexcept {
+    munmap(memory, (bytes + large_page - 1) / large_page * large_page);
 }
 
 }  // namespace dsc

@@ -18,6 +18,7 @@
 #include <pcl/io/ply_io.h>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/release.hpp>
 #include <dsc/text/words.hpp>
 
 #include "attributes.hpp"
@@ -260,7 +261,7 @@ Cloud read_ply(const std::string& file, std::string bytes, ReadReport& report,
     names = check.names;
     hide_grid_comments(bytes, check);
     const MemoryFile copy(file, bytes);
-    bytes = {};  // PCL needs the memory
+    release(bytes);  // PCL needs the memory
     return read_with(file, check, report, [&](pcl::PCLPointCloud2& blob) {
         Eigen::Vector4f origin;
         Eigen::Quaternionf orientation;

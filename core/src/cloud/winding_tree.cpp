@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <dsc/base/release.hpp>
+
 namespace dsc::cloud {
 
 ClusterTree::ClusterTree(std::vector<std::array<float, 3>> points, std::span<const float> weights,
@@ -11,7 +13,7 @@ ClusterTree::ClusterTree(std::vector<std::array<float, 3>> points, std::span<con
     const std::size_t count = points.size();
     std::vector<Entry> entries(count);
     for (std::size_t i = 0; i < count; ++i) entries[i] = {points[i], static_cast<std::uint32_t>(i)};
-    points = {};
+    release(points);
     nodes_.reserve(4 * (count / leaf_size + 1));
     divide(entries, 0, count, leaf_size);
     order_.resize(count);

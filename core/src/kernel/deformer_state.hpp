@@ -1,6 +1,7 @@
 #pragma once
 // The state of a Deformer, and the parts of a step, a refinement and a relabelling.
 
+#include <dsc/base/large_vector.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/validate.hpp>
 
@@ -33,7 +34,7 @@ struct Deformer::State {
 
     std::vector<repair::Request> requests, last_requests;
     std::vector<repair::Outcome> outcomes;
-    std::vector<VertexId> smoothed;  // vertices of a batch of requests
+    LargeVector<VertexId> smoothed;  // vertices of a batch of requests
     std::vector<TetId> face_star;    // for split_longest_edge()
 
     State(mesh::Complex start, const DeformerOptions& wanted, Workers* given);

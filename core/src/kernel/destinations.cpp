@@ -2,7 +2,9 @@
 // sections 5 and 9).
 #include "kernel/destinations.hpp"
 
+#include <atomic>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -46,6 +48,64 @@ void Destinations::send(VertexId v, const Vec3& destination) {
     }
     *entry = {destination, v, complex_.birth(v), 0, 0};
     active_.push_back(v);
+}
+
+// A vertex that was sent twice goes to its last destination.
+void Destinations::find_double(Workers* workers) {
+    constexpr std::size_t block = 4096;
+    std::atomic<bool> found{false};
+    for_blocks(workers, active_.size(), block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (entry_of_vertex_[active_[i]] != i) found.store(true, std::memory_order_relaxed);
+        }
+    });
+    if (!found) return;
+    clean_at_ = never;
+    for (std::uint32_t i = 0; i < active_.size(); ++i) entry_of_vertex_[active_[i]] = i;
+}
+
+Destinations::Sent Destinations::send(std::span<const VertexId> vertices,
+                                      std::span<const Vec3> displacements, const Box3& inside,
+                                      Workers* workers) {
+    constexpr std::size_t block = 4096, ahead = 16;  // vertices
+    if (entry_of_vertex_.size() < complex_.vertex_slots())
+        entry_of_vertex_.resize(complex_.vertex_slots(), mesh::none);
+    // In this order, so that a vertex without displacement is not even looked at.
+    const auto goes = [&](std::size_t i) {
+        return !displacements[i].isZero(0.0) && complex_.movable(vertices[i]);
+    };
+    // How many come before each block.
+    sent_.assign((vertices.size() + block - 1) / block, {});
+    for_blocks(workers, vertices.size(), block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + ahead < end) prefetch(vertices[i + ahead]);
+            sent_[begin / block].requested += goes(i) ? 1 : 0;
+        }
+    });
+    std::uint64_t count = 0;
+    for (Sent& sent : sent_) count += std::exchange(sent.requested, count);
+    entries_.resize(count);
+    active_.resize(count);
+    if (count == 0) return {};
+    for_blocks(workers, vertices.size(), block, [&](std::size_t begin, std::size_t end) {
+        Sent& sent = sent_[begin / block];
+        auto at = static_cast<std::uint32_t>(sent.requested);
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + ahead < end) complex_.prefetch_birth(vertices[i + ahead]);
+            if (!goes(i)) continue;
+            const VertexId v = vertices[i];
+            const Vec3 wanted = complex_.position(v) + displacements[i];
+            const Vec3 place = wanted.cwiseMax(inside.low).cwiseMin(inside.high);
+            sent.clamped += place != wanted ? 1 : 0;
+            entries_[at] = {place, v, complex_.birth(v), 0, 0};
+            active_[at] = v;
+            std::atomic_ref(entry_of_vertex_[v]).store(at++, std::memory_order_relaxed);
+        }
+    });
+    find_double(workers);
+    Sent all{count, 0};
+    for (const Sent& sent : sent_) all.clamped += sent.clamped;
+    return all;
 }
 
 void Destinations::on_split(VertexId vertex, VertexId a, VertexId b, double s) {

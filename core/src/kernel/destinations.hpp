@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include <dsc/base/large_vector.hpp>
 #include <dsc/base/prefetch.hpp>
 #include <dsc/kernel/step_report.hpp>
 
@@ -28,14 +29,16 @@ public:
 
     /// Begins a step: no vertex moves. [step]
     void clear();
+    struct Sent {
+        std::uint64_t requested = 0;  ///< movable vertices with a displacement
+        std::uint64_t clamped = 0;    ///< of these, how many wanted to leave the box
+    };
+    /// Sets the destinations of a step: the positions plus the displacements, but within `inside`.
+    /// Call it after clear(). `workers`: null for one thread. [step]
+    Sent send(std::span<const VertexId> vertices, std::span<const Vec3> displacements,
+              const Box3& inside, Workers* workers);
     /// Sets the destination of v. [step]
     void send(VertexId v, const Vec3& destination);
-
-    /// Asks the memory for what send() will read and write.
-    void prefetch(VertexId v) const {
-        complex_.prefetch_vertex(v);
-        if (v < entry_of_vertex_.size()) prefetch_line_to_write(&entry_of_vertex_[v]);
-    }
 
     /// Makes one attempt for every vertex that moves; returns the sum of the remaining distances.
     /// [step]
@@ -63,10 +66,10 @@ public:
 private:
     struct Entry {
         Vec3 place;
-        VertexId vertex = mesh::none;  // none: arrived or dropped
-        std::uint32_t birth = 0;
-        std::uint32_t blocked_at = 0;  // 0: not blocked
-        std::uint32_t listed = 0;      // pass in which it was handled, to avoid double entries
+        VertexId vertex;  // none: arrived or dropped
+        std::uint32_t birth;
+        std::uint32_t blocked_at;  // 0: not blocked
+        std::uint32_t listed;      // pass in which it was handled, to avoid double entries
     };
     struct Pass;
 
@@ -74,22 +77,28 @@ private:
     bool moves(VertexId v);
     Vec3 destination_of(VertexId v) { return moves(v) ? entry_of(v)->place : complex_.position(v); }
     void drop_dead_and_double();
+    void find_double(Workers* workers);
+    void prefetch(VertexId v) const {
+        complex_.prefetch_vertex(v);
+        if (v < entry_of_vertex_.size()) prefetch_line_to_write(&entry_of_vertex_[v]);
+    }
 
     mesh::Complex& complex_;
     RepairQueues& queues_;
     StarLoop& loop_;
     // One entry per moving vertex. `entry_of_vertex_` maps a vertex to its entry, which is valid if
     // vertex and birth agree.
-    std::vector<Entry> entries_;
+    LargeVector<Entry> entries_;
     std::vector<std::uint32_t> entry_of_vertex_;
-    std::vector<VertexId> active_;
+    LargeVector<VertexId> active_;
     // The shape clock at which all vertices in active_ were movable and different. As long as it
     // does not advance, they stay so.
     static constexpr std::uint32_t never = 0xffffffffU;
     std::uint32_t clean_at_ = never;
     std::vector<VertexId> blocked_;
     std::vector<VertexId> near_collapses_;
-    std::vector<std::uint8_t> fates_;
+    LargeVector<std::uint8_t> fates_;
+    std::vector<Sent> sent_;  // per block of a step's vertices
     std::uint32_t pass_ = 0;
     std::size_t tried_ = 0;
     std::size_t stranded_ = 0;

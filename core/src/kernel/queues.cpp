@@ -22,10 +22,36 @@ bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
     return changed && !lost();
 }
 
+// Few tets are dead, so bits say which: the tets themselves, which lie far apart in memory, need
+// not be looked at.
 void RepairQueues::drop_dead(Workers* workers) {
+    const std::span<const TetId> dead = complex_.dead_tets();
+    if (dead.size() > dirty_.size()) {
+        filter_.keep_if(
+            workers, dirty_, [this](TetId t) { return complex_.tet_alive(t) && !lost(); },
+            [this](TetId t) { complex_.prefetch(t); });
+        return;
+    }
+    dead_.resize((complex_.tet_slots() + 63) / 64, 0);
+    const auto word = [this](TetId t) -> std::uint64_t& { return dead_[t / 64]; };
+    const auto bit = [](TetId t) { return std::uint64_t{1} << t % 64; };
+    for (const TetId t : dead) word(t) |= bit(t);
+    if (!dead.empty() || drop_ != 0) {
+        filter_.keep_if(
+            workers, dirty_, [&](TetId t) { return (word(t) & bit(t)) == 0 && !lost(); },
+            [](TetId) {});
+    }
+    for (const TetId t : dead) word(t) = 0;
+}
+
+// Nearly all refused tets have changed since the last round, and so have a place in the list.
+void RepairQueues::drop_changed_failures(std::uint32_t previous_clock, Workers* workers) {
     filter_.keep_if(
-        workers, dirty_, [this](TetId t) { return complex_.tet_alive(t) && !lost(); },
-        [this](TetId t) { complex_.prefetch(t); });
+        workers, failed_now_,
+        [this, previous_clock](const Failure& failure) {
+            return complex_.tet_alive(failure.tet) && complex_.date(failure.tet) <= previous_clock;
+        },
+        [this](const Failure& failure) { complex_.prefetch(failure.tet); });
 }
 
 void RepairQueues::judge_all(std::uint32_t previous_clock, Workers& workers) {
@@ -43,6 +69,7 @@ std::span<const TetId> RepairQueues::next_round(Workers* workers) {
     complex_.take_changes(dirty_);
     drop_dead(workers);
     changed_ = dirty_.size();
+    drop_changed_failures(previous_clock, workers);
     // Of several failures of a slot in a round, the first one counts.
     seen_.clear();
     for (const Failure& failure : failed_now_) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/base/large_vector.hpp>
 #include <dsc/base/parallel_filter.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/complex.hpp>
@@ -30,6 +31,12 @@ public:
     std::span<const TetId> next_round(Workers* workers);
     /// Those tets of the round whose failure was out of date.
     std::span<const TetId> woken() const { return std::span(dirty_).subspan(changed_); }
+    /// The tets of the round are not needed any more. Their memory serves for the next changes.
+    /// [step]
+    void forget_round() {
+        complex_.reuse(dirty_);
+        changed_ = 0;
+    }
     /// Remembers that a request on this tet was refused in this round, when the change clock was
     /// `date`. `birth_date` is that of the tet.
     void fail(TetId t, std::uint32_t birth_date, std::uint32_t date);
@@ -58,6 +65,7 @@ private:
         return out_of_date(t, failure.date) ? Verdict::wake : Verdict::keep;
     }
     void drop_dead(Workers* workers);
+    void drop_changed_failures(std::uint32_t previous_clock, Workers* workers);
     void judge_all(std::uint32_t previous_clock, Workers& workers);
 
     bool lost() { return drop_ != 0 && --drop_ == 0; }
@@ -71,14 +79,15 @@ private:
     mesh::Complex& complex_;
     bool audit_;
     std::uint64_t drop_;
-    std::vector<TetId> dirty_;
+    LargeVector<TetId> dirty_;
     std::size_t changed_ = 0;  // how many of them have changed; they come first
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;
     mesh::TetIndex seen_;
-    std::vector<Verdict> verdicts_;  // per failure; for several threads
-    std::vector<Failure> memory_;    // audit only, per tet: its last failure, independent of the
-                                     // queues
+    std::vector<std::uint64_t> dead_;  // a bit per tet slot, for drop_dead()
+    std::vector<Verdict> verdicts_;    // per failure; for several threads
+    std::vector<Failure> memory_;      // audit only, per tet: its last failure, independent of the
+                                       // queues
     ParallelFilter filter_;
     std::uint32_t last_clock_ = 0;
 };

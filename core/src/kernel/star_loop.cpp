@@ -107,15 +107,13 @@ void StarLoop::find_new_leaves(std::span<const mesh::VertexId> vertices) {
 }
 
 // Whether no block has many times the average number of items.
-bool StarLoop::is_balanced() const {
-    BlockCounts count{};
-    for (const std::uint8_t leaf : leaf_of_) ++count[block_of(leaf)];
+bool StarLoop::is_balanced(const BlockCounts& count) const {
     return *std::max_element(count.begin(), count.end()) <=
            3 * leaf_of_.size() / (most_blocks >> coarser_) + least_block;
 }
 
-// The items of the blocks, in the order of their turns.
-void StarLoop::fill_blocks(Workers& workers) {
+// How many items the blocks will have; items_before_ receives how many come before each part.
+StarLoop::BlockCounts StarLoop::count_items(Workers& workers) {
     items_before_.assign(parts(), BlockCounts{});
     workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
         BlockCounts count{};
@@ -124,12 +122,17 @@ void StarLoop::fill_blocks(Workers& workers) {
     });
     BlockCounts total{};
     for (BlockCounts& count : items_before_) add_up(count, total);
-    for (std::size_t b = 0; b < most_blocks; ++b) blocks_[b].items.resize(total[b]);
+    return total;
+}
+
+// The items of the blocks, in the order of their turns.
+void StarLoop::fill_blocks(const BlockCounts& count, Workers& workers) {
+    for (std::size_t b = 0; b < most_blocks; ++b) blocks_[b].items.resize(count[b]);
     workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
         BlockCounts at = items_before_[begin / part];
         for (std::size_t turn = begin; turn < end; ++turn) {
             const std::size_t b = block_of(leaf_of_[turn]);
-            blocks_[b].items[at[b]++] = {static_cast<std::uint32_t>(turn)};
+            blocks_[b].items[at[b]++] = {static_cast<std::uint32_t>(turn), 0};
         }
     });
 }
@@ -176,6 +179,22 @@ void StarLoop::list_changes(std::size_t p, std::span<mesh::TetId> list) const {
     }
 }
 
+// Makes room for the watched tets of the blocks, one block after the other.
+std::span<mesh::TetId> StarLoop::count_watched() {
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < most_blocks; ++b) {
+        watched_before_[b] = count;
+        count += blocks_[b].changes.watched.size();
+    }
+    return complex_.add_watched(count);
+}
+
+void StarLoop::list_watched(std::size_t b, std::span<mesh::TetId> list) const {
+    const LargeVector<mesh::TetId>& watched = blocks_[b].changes.watched;
+    std::copy(watched.begin(), watched.end(),
+              list.begin() + static_cast<std::ptrdiff_t>(watched_before_[b]));
+}
+
 // False if the items cannot be divided.
 bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers) {
     if (vertices.size() < least_split || vertices.size() >= no_turn) return false;
@@ -190,12 +209,14 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     const bool is_new = loops_++ % most_loops == 0;
     if (is_new) make_planes(vertices);
     if (!take_turns(vertices, workers)) return false;
-    if (!is_new && !is_balanced()) {
+    BlockCounts count = count_items(workers);
+    if (!is_new && !is_balanced(count)) {
         make_planes(vertices);
         std::fill(leaf_of_.begin(), leaf_of_.end(), no_leaf);
         find_new_leaves(vertices);
+        count = count_items(workers);
     }
-    fill_blocks(workers);
+    fill_blocks(count, workers);
     for (Block& block : blocks_) {
         block.changes.changed.clear();
         block.changes.watched.clear();

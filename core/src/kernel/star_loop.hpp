@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include <dsc/base/large_vector.hpp>
 #include <dsc/base/spin.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/complex.hpp>
@@ -96,7 +97,7 @@ private:
     // A vertex at its turn.
     struct Item {
         std::uint32_t turn;
-        std::uint32_t changes = 0;  // how many tets its move put on the list of the block
+        std::uint32_t changes;  // how many tets its move put on the list of the block
     };
 
     struct Date {
@@ -112,7 +113,7 @@ private:
         std::atomic<std::uint64_t> waits_for{no_wait};  // wait_for()
         std::size_t next = 0;                           // item
         bool prepared = false;      // scratch has the star and the neighbours of the next
-        std::vector<Item> items;    // in the order of their turns
+        LargeVector<Item> items;    // in the order of their turns
         mesh::ChangeLists changes;  // by the moves, in their order
         std::vector<Date> dates;    // that vertices of other blocks get after the loop
         StarScratch scratch;
@@ -153,10 +154,11 @@ private:
     void make_planes(std::span<const mesh::VertexId> vertices);
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
     void find_new_leaves(std::span<const mesh::VertexId> vertices);
-    void fill_blocks(Workers& workers);
+    BlockCounts count_items(Workers& workers);
+    void fill_blocks(const BlockCounts& count, Workers& workers);
     std::uint8_t leaf_of_new(mesh::VertexId v);
     bool take_turns(std::span<const mesh::VertexId> vertices, Workers& workers);
-    bool is_balanced() const;
+    bool is_balanced(const BlockCounts& count) const;
     std::uint8_t leaf_at(const Vec3& place) const;
     Offer farthest_behind(const Thread& thread) const;
 
@@ -311,16 +313,18 @@ private:
     template <class Action>
     void settle(Action& action, Workers& workers) {
         const std::span<mesh::TetId> list = count_changes(workers);
-        // The books are kept by one thread, as part 0, while others go on.
-        workers.for_blocks(parts() + 1, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t p = begin; p < end; ++p) {
-                if (p == 0)
+        const std::span<mesh::TetId> watched = count_watched();
+        // The books are kept by one thread, as job 0, while others go on.
+        workers.for_blocks(1 + most_blocks + parts(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t job = begin; job < end; ++job) {
+                if (job == 0)
                     keep_books(action);
+                else if (job <= most_blocks)
+                    list_watched(job - 1, watched);
                 else
-                    list_changes(p - 1, list);
+                    list_changes(job - 1 - most_blocks, list);
             }
         });
-        for (const Block& block : blocks_) complex_.add_watched(block.changes.watched);
     }
     template <class Action>
     void keep_books(Action& action) {
@@ -330,6 +334,8 @@ private:
     std::size_t parts() const;
     std::span<mesh::TetId> count_changes(Workers& workers);
     void list_changes(std::size_t p, std::span<mesh::TetId> list) const;
+    std::span<mesh::TetId> count_watched();
+    void list_watched(std::size_t b, std::span<mesh::TetId> list) const;
 
     template <class Action>
     void run_next(Block& block, mesh::VertexId v, Item& item, Action& action) {
@@ -387,10 +393,11 @@ private:
     std::vector<std::uint32_t> date_of_vertex_;  // of its last turn; in the past if it is not in
                                                  // the list
     std::vector<mesh::VertexId> reshaped_;       // since the last division
-    std::vector<std::uint8_t> leaf_of_;          // per turn
+    LargeVector<std::uint8_t> leaf_of_;          // per turn
     std::vector<BlockCounts> items_before_;      // per part of the list
     std::vector<BlockCounts> changes_before_;    // the same for the changed tets
     std::vector<std::size_t> listed_before_;     // their sum
+    BlockCounts watched_before_{};               // per block: watched tets of earlier blocks
     std::uint32_t start_ = 0;                    // the change clock at the start
 };
 

@@ -19,24 +19,12 @@ void Deformer::State::begin_step(std::span<const VertexId> vertices,
     outcomes.clear();
     bench.sums = {};
     bench.crease_exceptions = 0;
-    constexpr std::size_t ahead = 16;  // vertices
-    const Vec3 low = complex.box().low.array() + 2.0 * length;
-    const Vec3 high = complex.box().high.array() - 2.0 * length;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const VertexId v = vertices[i];
-        if (i + ahead < vertices.size()) {
-            complex.prefetch_vertex(vertices[i + ahead]);
-            complex.prefetch_birth(vertices[i + ahead]);
-            destinations.prefetch(vertices[i + ahead]);
-        }
-        // In this order, so that a vertex without displacement is not even looked at.
-        if (displacements[i].isZero(0.0) || !complex.movable(v)) continue;
-        ++report.requested;
-        const Vec3 wanted = complex.position(v) + displacements[i];
-        const Vec3 inside = wanted.cwiseMax(low).cwiseMin(high);
-        if (inside != wanted) ++report.clamped;
-        destinations.send(v, inside);
-    }
+    const Vec3 margin = Vec3::Constant(2.0 * length);
+    const Destinations::Sent sent =
+        destinations.send(vertices, displacements,
+                          {complex.box().low + margin, complex.box().high - margin}, workers);
+    report.requested += sent.requested;
+    report.clamped += sent.clamped;
 }
 
 // The tet of a refused request waits until its neighbourhood changes.
@@ -146,6 +134,7 @@ void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool se
                             bench.lengths != nullptr ? std::span<const double>(*bench.lengths)
                                                      : std::span<const double>()},
         requests);
+    queues.forget_round();
     outcomes.resize(requests.size());
     foresights.start(requests, workers);
     for (std::size_t i = 0; i < requests.size();) {

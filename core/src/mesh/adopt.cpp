@@ -5,6 +5,7 @@
 #include <string>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/release.hpp>
 #include <dsc/base/union_find.hpp>
 #include <dsc/geometry/point_text.hpp>
 #include <dsc/geometry/predicates.hpp>
@@ -313,7 +314,7 @@ std::size_t orient(TetMesh& mesh) {
     return turned;
 }
 
-Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, double min_component,
+Complex adopt(TetMesh mesh, std::string_view name, AdoptReport* report, double min_component,
               Workers* workers) {
     AdoptReport local;
     AdoptReport& out = report != nullptr ? *report : local;
@@ -322,6 +323,8 @@ Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, d
     LargeVector<TetCorners> tets;
     LargeVector<TetNeighbours> neighbours;
     std::vector<Vec3> points = used_points(mesh, tets, out);
+    release(mesh.points);
+    release(mesh.tets);
     orient(points, tets, name, out, workers);
     join_faces(points, tets, neighbours, name, workers);
     check_volume(points, tets, name);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include <dsc/base/release.hpp>
 #include <dsc/geometry/quality.hpp>
 
 namespace dsc::mesh {
@@ -63,13 +64,22 @@ void Complex::touch(TetId t) {
     for (const VertexId v : tets_[t].v) vertices_[v].date = clock_;
 }
 
-void Complex::take_changes(std::vector<TetId>& out) {
+void Complex::take_changes(LargeVector<TetId>& out) {
     out.clear();
     std::swap(out, lists_.changed);
     taken_clock_ = clock_;
 }
 
+void Complex::reuse(LargeVector<TetId>& taken) {
+    const std::size_t wanted = taken.size();
+    taken.clear();
+    if (!lists_.changed.empty()) return;
+    give_back_room(taken, wanted);
+    std::swap(taken, lists_.changed);
+}
+
 void Complex::start_watch() {
+    give_back_room(lists_.watched, lists_.watched.size());
     lists_.watched = lists_.changed;
     watched_since_ = taken_clock_ + 1;
 }
@@ -293,7 +303,7 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets
     c.tets_.resize(tets.size());
     c.neighbours_ = std::move(neighbours);
     const std::size_t n = c.tets_.size();
-    c.lists_.changed.reserve(n);
+    c.lists_.changed.reserve(n + n / 8);  // more may be made before the list is taken
     c.clock_ = c.shape_clock_ = c.reshaped_since_ = 1;
     for_blocks(workers, n, assembled_tets, [&c, &tets, labels](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
@@ -303,7 +313,7 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets
             c.tets_[t] = {v, static_cast<float>(quality), 0, 1, labels[t]};
         }
     });
-    tets = {};
+    release(tets);
     for (TetId t = 0; t < n; ++t) {
         const auto& v = c.tets_[t].v;
         for (unsigned f = 0; f < 4; ++f) {

@@ -206,8 +206,12 @@ public:
         guarded(current, [&] { inner().propose(step, round, out); });
         if (out.size() < before)
             fail(current, "strategy.size", "removed requests that were there before", report_it);
-        for (std::size_t i = before; i < out.size(); ++i)
-            check_answer(current, round.complex, *class_count_, out[i], i - before);
+        const std::span<const repair::Request> added = std::span(out).subspan(before);
+        constexpr std::size_t block = 4096;  // requests
+        for_blocks(step.workers, added.size(), block, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                check_answer(current, round.complex, *class_count_, added[i], i);
+        });
     }
 
     std::vector<std::string> repair_classes() const override {

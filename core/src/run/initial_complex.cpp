@@ -34,7 +34,7 @@ mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategi
     const MeshFiles files;
     context.files = &files;
     context.workers = &workers;
-    const mesh::TetMesh mesh = [&] {
+    mesh::TetMesh mesh = [&] {
         const Timed timed(totals.seconds.initial_mesh);
         return strategies.initial_mesh->build(context);
     }();
@@ -44,8 +44,8 @@ mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategi
     totals.warnings = strategies.initial_mesh->warnings();
     const Timed timed(totals.seconds.adopt);
     mesh::Complex complex = mesh::adopt(
-        mesh, fmt::format("initial mesh '{}'", experiment.initial_mesh.type), &totals.adopted,
-        strategies.improvement->topology_limits().min_component, &workers);
+        std::move(mesh), fmt::format("initial mesh '{}'", experiment.initial_mesh.type),
+        &totals.adopted, strategies.improvement->topology_limits().min_component, &workers);
     if (cloud != nullptr) require_inside(*cloud, complex.box());
     return complex;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <boost/sort/spreadsort/integer_sort.hpp>
 
@@ -44,17 +45,16 @@ void faces_led_by(const mesh::Complex& c, mesh::VertexId v, mesh::StarWalk& walk
 
 }  // namespace
 
-bool ViewMemory::known(const mesh::Complex& complex, mesh::VertexId v) const {
+bool ViewMemory::known(const mesh::Complex& complex, mesh::VertexId v, std::uint32_t i) const {
     // Another vertex may use the slot now.
-    return v < index_.size() && index_[v] < births_.size() &&
-           births_[index_[v]] == complex.birth(v) && complex.shape_date(v) <= clock_;
+    return i < births_.size() && births_[i] == complex.birth(v) && complex.shape_date(v) <= clock_;
 }
 
 std::span<const ViewMemory::Face> ViewMemory::faces_led_by(const mesh::Complex& complex,
-                                                           mesh::VertexId v, bool& is_known) const {
-    is_known = known(complex, v);
+                                                           mesh::VertexId v, std::uint32_t i,
+                                                           bool& is_known) const {
+    is_known = known(complex, v, i);
     if (!is_known) return {};
-    const std::uint32_t i = index_[v];
     return std::span(faces_).subspan(starts_[i], starts_[i + 1] - starts_[i]);
 }
 
@@ -63,8 +63,10 @@ bool ViewMemory::only_moved(const mesh::Complex& complex, const SurfaceView& vie
     if (births_.empty() || interface.size() != births_.size() || view.births != births_ ||
         view.faces.size() != faces_.size() || view.vertex_faces.size() != 3 * faces_.size())
         return false;
-    if (!std::all_of(interface.begin(), interface.end(),
-                     [&](mesh::VertexId v) { return known(complex, v); }))
+    const std::vector<std::uint32_t>& index = arrays_.index;
+    if (!std::all_of(interface.begin(), interface.end(), [&](mesh::VertexId v) {
+            return v < index.size() && known(complex, v, index[v]);
+        }))
         return false;
     // The caller may have given the view of another memory.
     for (std::size_t f = 0; f < faces_.size(); ++f) {
@@ -81,14 +83,9 @@ void ViewMemory::keep(const mesh::Complex& complex, const SurfaceView& view,
                       std::span<const std::uint32_t> counts, Workers* workers) {
     clock_ = complex.clock();
     births_ = view.births;
-    if (index_.size() < complex.vertex_slots()) index_.resize(complex.vertex_slots());
     starts_.resize(counts.size() + 1);
     starts_[0] = 0;
     std::partial_sum(counts.begin(), counts.end(), starts_.begin() + 1);
-    for_blocks(workers, counts.size(), measure_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            index_[view.vertex_ids[i]] = static_cast<std::uint32_t>(i);
-    });
     faces_.resize(view.faces.size());
     for_blocks(workers, faces_.size(), measure_block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
@@ -118,12 +115,13 @@ void list_vertices(const mesh::Complex& c, SurfaceView& view, Workers* workers,
     view.vertex_ids.resize(n);
     view.births.resize(n);
     view.movable.resize(n);
+    arrays.last.resize(n);
     if (arrays.index.size() < c.vertex_slots()) arrays.index.resize(c.vertex_slots());
     for_blocks(workers, n, measure_block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto v = static_cast<mesh::VertexId>(keys[i]);
             view.vertex_ids[i] = v;
-            arrays.index[v] = static_cast<std::uint32_t>(i);
+            arrays.last[i] = std::exchange(arrays.index[v], static_cast<std::uint32_t>(i));
             view.births[i] = static_cast<std::uint32_t>(keys[i] >> 32U);
             view.movable[i] = c.movable(v) ? 1 : 0;
         }
@@ -161,41 +159,41 @@ void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMe
     ViewMemory::Arrays& arrays = memory != nullptr ? memory->arrays() : own;
     list_vertices(c, view, workers, arrays);
     const std::size_t n = view.vertex_ids.size();
-    auto& [keys, blocks, index, counts] = arrays;
+    std::vector<ViewMemory::Arrays::Block>& blocks = arrays.blocks;
     blocks.resize(std::max(blocks.size(), (n + walk_block - 1) / walk_block));
     struct Job {
         const mesh::Complex& c;
         const SurfaceView& view;
-        const std::vector<std::uint32_t>& index;
-        std::vector<ViewMemory::Arrays::Block>& blocks;
+        ViewMemory::Arrays& arrays;
         const ViewMemory* memory;
-        std::vector<std::uint32_t>& counts;
-    } const job{c, view, index, blocks, memory, counts};
-    counts.resize(n);
+    } const job{c, view, arrays, memory};
+    arrays.counts.resize(n);
     for_blocks(workers, n, walk_block, [&job](std::size_t begin, std::size_t end) {
-        mesh::StarWalk& walk = job.blocks[begin / walk_block].walk;
-        std::vector<RawFace>& raw = job.blocks[begin / walk_block].faces;
+        const std::vector<std::uint32_t>& index = job.arrays.index;
+        mesh::StarWalk& walk = job.arrays.blocks[begin / walk_block].walk;
+        std::vector<RawFace>& raw = job.arrays.blocks[begin / walk_block].faces;
         raw.clear();
         for (std::size_t i = begin; i < end; ++i) {
             const auto first = static_cast<std::ptrdiff_t>(raw.size());
             const mesh::VertexId v = job.view.vertex_ids[i];
             bool known = false;
             if (job.memory != nullptr) {
-                const std::span<const RawFace> faces = job.memory->faces_led_by(job.c, v, known);
+                const std::span<const RawFace> faces =
+                    job.memory->faces_led_by(job.c, v, job.arrays.last[i], known);
                 raw.insert(raw.end(), faces.begin(), faces.end());
             }
             if (!known) {
                 faces_led_by(job.c, v, walk, raw);
                 std::sort(raw.begin() + first, raw.end(), [&](const RawFace& a, const RawFace& b) {
-                    return std::pair(job.index[a.vertices[1]], job.index[a.vertices[2]]) <
-                           std::pair(job.index[b.vertices[1]], job.index[b.vertices[2]]);
+                    return std::pair(index[a.vertices[1]], index[a.vertices[2]]) <
+                           std::pair(index[b.vertices[1]], index[b.vertices[2]]);
                 });
             }
-            job.counts[i] = static_cast<std::uint32_t>(raw.end() - raw.begin() - first);
+            job.arrays.counts[i] = static_cast<std::uint32_t>(raw.end() - raw.begin() - first);
         }
     });
     list_faces(view, n, workers, arrays);
-    if (memory != nullptr) memory->keep(c, view, counts, workers);
+    if (memory != nullptr) memory->keep(c, view, arrays.counts, workers);
     view.face_offsets.assign(n + 1, 0);
     for (const auto& face : view.faces) {
         for (const auto v : face) ++view.face_offsets[v + 1];

@@ -286,10 +286,21 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
     }
 }
 
+// The list need not grow while it is written, which would copy it. Twice the room, because the next
+// rounds may write more, and memory that nobody has written to costs nothing.
+void Proposals::make_room(std::vector<Request>& out) const {
+    constexpr std::size_t most_per_tet = 11;  // of low quality
+    const std::size_t most = out.size() + all_.free_edges.size() + all_.free.size() +
+                             most_per_tet * all_.low.size() + all_.short_edges.size() +
+                             all_.long_edges.size() + all_.small.size();
+    if (out.capacity() < most) out.reserve(2 * most);
+}
+
 void Proposals::write(const repair::RepairRound& round, Workers* workers,
                       std::vector<repair::Request>& out) {
     const mesh::Complex& c = round.complex;
     sort_out(round, workers);
+    make_room(out);
     const double low = limits_.min_tet_quality, degenerate = limits_.degenerate_tet_quality;
     // 0. Long edges ahead of the interface, longest first: the next stages smooth the new vertices.
     for (const EdgeEntry& edge : all_.free_edges) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <dsc/base/large_vector.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/repair/contract.hpp>
 
@@ -62,7 +63,7 @@ private:
     struct Findings {
         std::vector<Entry> low, small;
         std::vector<EdgeEntry> short_edges, long_edges, free_edges;
-        std::vector<FreeEntry> free;
+        LargeVector<FreeEntry> free;
         std::size_t free_before = 0;  // number of free entries of all earlier blocks
         void clear();
     };
@@ -73,6 +74,7 @@ private:
                        Findings& found);
     void join(std::size_t blocks, Workers* workers);
     void sort_out(const repair::RepairRound& round, Workers* workers);
+    void make_room(std::vector<repair::Request>& out) const;
     double small_volume_of(const repair::RepairRound& round, mesh::TetId t) const;
     static bool may_thin_out(const repair::RepairRound& round, mesh::TetId t);
     static double free_length(const repair::RepairRound& round, mesh::VertexId a, mesh::VertexId b);

@@ -91,12 +91,12 @@ TEST_CASE("an entry of another size") {
 TEST_CASE("other versions of the ABI") {
     CHECK(refusal(fixture("bad_abi_old")).code == "plugin.abi");
     CHECK(refusal(fixture("bad_abi_old")).text ==
-          fixture("bad_abi_old").string() + ": was built for ABI 6.0, this dsc has ABI 7.0; "
+          fixture("bad_abi_old").string() + ": was built for ABI 7.0, this dsc has ABI 8.0; "
                                             "rebuild it with the headers of this dsc");
     CHECK(refusal(fixture("bad_abi_new")).code == "plugin.abi");
     CHECK(refusal(fixture("bad_abi_new")).text ==
           fixture("bad_abi_new").string() +
-              ": needs ABI 7.1, this dsc has ABI 7.0; install a newer dsc, or rebuild the plugin "
+              ": needs ABI 8.1, this dsc has ABI 8.0; install a newer dsc, or rebuild the plugin "
               "with the headers of this one");
 }
 

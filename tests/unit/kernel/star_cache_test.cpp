@@ -176,7 +176,8 @@ TEST_CASE("the watched tets are those that have changed since the start, each on
         Workbench bench(c);
         const double length = mesh::mean_interface_edge(c);
         bench.limits = {length, 1e-3, 0.5 * length, geometry::regular_tet_volume(length), 0.5};
-        std::vector<TetId> taken, watched;
+        LargeVector<TetId> taken;
+        std::vector<TetId> watched;
         for (int start = 0; start < 20; ++start) {
             // What has not been taken yet is watched from the start.
             const std::vector<TetId> open(c.changes().begin(), c.changes().end());

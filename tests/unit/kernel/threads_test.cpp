@@ -83,7 +83,7 @@ struct Shake {
 struct Shaken {
     mesh::Complex complex;
     std::vector<std::uint32_t> dates;
-    std::vector<TetId> changes;
+    LargeVector<TetId> changes;
     std::vector<TetId> watched;  // sorted
 };
 
@@ -160,7 +160,7 @@ TEST_CASE("star loop: every vertex once, no tet held by two, the bits and dates 
         const Shaken one = shake(nullptr, order);
         // A vertex' date is that of the last move in its neighbourhood, and what moved is on the
         // change list once.
-        std::vector<TetId> sorted = one.changes;
+        LargeVector<TetId> sorted = one.changes;
         std::sort(sorted.begin(), sorted.end());
         CHECK(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
         std::vector<TetId> star;

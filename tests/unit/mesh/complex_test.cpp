@@ -128,7 +128,8 @@ TEST_CASE("link refuses a filling that does not close") {
 
 TEST_CASE("moves and relabels keep the caches") {
     Complex c = adopt(test::ball_grid(6), "ball");
-    std::vector<TetId> star, changes;
+    std::vector<TetId> star;
+    LargeVector<TetId> changes;
     c.take_changes(changes);
     CHECK(changes.size() == c.tet_count());
     VertexId inside = none;

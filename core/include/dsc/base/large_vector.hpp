@@ -4,7 +4,10 @@
 #include <cstddef>
 #include <limits>
 #include <new>
+#include <type_traits>
 #include <vector>
+
+#include <dsc/base/release.hpp>
 
 namespace dsc {
 
@@ -14,9 +17,9 @@ namespace dsc {
 inline constexpr std::size_t large_page = std::size_t{1} << 21U;
 
 /// Memory at a multiple of large_page, in pages of this size if the system offers them. Free it by
-/// free_large_pages(). Throws std::bad_alloc. [parallel]
+/// free_large_pages() with the same number. Throws std::bad_alloc. [parallel]
 void* allocate_large_pages(std::size_t bytes);
-void free_large_pages(void* memory) noexcept;
+void free_large_pages(void* memory, std::size_t bytes) noexcept;
 
 /// An allocator for arrays that may become large.
 template <class T>
@@ -39,8 +42,15 @@ public:
         if (count * sizeof(T) < large_page) {
             ::operator delete(memory);
         } else {
-            free_large_pages(memory);
+            free_large_pages(memory, count * sizeof(T));
         }
+    }
+
+    /// A new element without a value, as after resize(): a type without initial values is not set.
+    /// So a list can be made longer without writing to it twice.
+    template <class U>
+    void construct(U* place) noexcept(std::is_nothrow_default_constructible_v<U>) {
+        ::new (static_cast<void*>(place)) U;
     }
 
     template <class U>
@@ -49,7 +59,17 @@ public:
     }
 };
 
+/// Elements that resize() adds have no defined value if their type gives them none.
 template <class T>
 using LargeVector = std::vector<T, LargePages<T>>;
+
+/// Gives back the memory of an array that has room for far more than the `wanted` elements it will
+/// probably need, as after a first step that looked at everything. What it contains is lost then.
+template <class T>
+void give_back_room(LargeVector<T>& list, std::size_t wanted) {
+    if (list.capacity() * sizeof(T) < large_page || list.capacity() / 3 < wanted) return;
+    release(list);
+    list.reserve(wanted);
+}
 
 }  // namespace dsc

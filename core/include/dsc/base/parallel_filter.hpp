@@ -15,8 +15,9 @@ class ParallelFilter {
 public:
     /// Removes the entries for which keep(entry) is false, which is asked once per entry; some
     /// entries before that, fetch(entry) may ask the memory for what keep() will read [parallel].
-    template <class T, class Keep, class Fetch>
-    void keep_if(Workers* workers, std::vector<T>& list, const Keep& keep, const Fetch& fetch) {
+    template <class T, class Allocator, class Keep, class Fetch>
+    void keep_if(Workers* workers, std::vector<T, Allocator>& list, const Keep& keep,
+                 const Fetch& fetch) {
         kept_.resize((list.size() + block - 1) / block);
         struct Job {
             T* list;

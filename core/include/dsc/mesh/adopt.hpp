@@ -23,8 +23,9 @@ struct AdoptReport {
 /// element and the count: index out of range, zero volume, a face with more than two tets, two tets
 /// on one side of a face, a sum of volumes that differs from the volume of the box by more than a
 /// relative 1e-9, a vertex that cannot be unpinched. Messages use `name` for the file or generator.
-/// `workers`, null for one thread, share the work. [setup]
-Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report = nullptr,
+/// `workers`, null for one thread, share the work. Move a mesh that is not needed any more: its
+/// memory is given back on the way. [setup]
+Complex adopt(TetMesh mesh, std::string_view name, AdoptReport* report = nullptr,
               double min_component = 2.0, Workers* workers = nullptr);
 
 /// Makes the tets of negative volume positive, because some programs write such files; returns

@@ -48,7 +48,7 @@ struct StarWalk {
 
 /// Tets that have changed since a time; see Complex::changes() and Complex::watched().
 struct ChangeLists {
-    std::vector<TetId> changed, watched;
+    LargeVector<TetId> changed, watched;
 };
 
 /// See the head of the file.
@@ -62,6 +62,8 @@ public:
     std::size_t tet_slots() const { return tets_.size(); }
     std::size_t vertex_count() const { return vertices_.size() - free_vertices_.size(); }
     std::size_t tet_count() const { return tets_.size() - free_tets_.size(); }
+    /// The slots without a tet, in unspecified order.
+    std::span<const TetId> dead_tets() const { return free_tets_; }
     bool vertex_alive(VertexId v) const { return shapes_[v].seed != none; }
     bool tet_alive(TetId t) const { return tets_[t].v[0] != none; }
 
@@ -218,9 +220,9 @@ public:
     /// The parts of move(), for several vertices. place() and date_move() may run in parallel if no
     /// other thread uses the star meanwhile. The dates are above clock(), and of two moves with a
     /// common tet the later one comes later; `changes` receives the tets that are not on the lists
-    /// yet [parallel]. Then add_changes() makes room for the changed ones on the change list, where
-    /// the caller writes them in the order of the moves, add_watched() adds them to the list of
-    /// watched tets, and advance_clock() goes to a time that is not before the last move [step].
+    /// yet [parallel]. Then add_changes() and add_watched() make room on the two lists, where the
+    /// caller writes them, the changed ones in the order of the moves, and advance_clock() goes to
+    /// a time that is not before the last move [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
     /// `dating(w)`: how v or a neighbour gets the date.
@@ -244,8 +246,9 @@ public:
         lists_.changed.resize(lists_.changed.size() + count);
         return std::span(lists_.changed).last(count);
     }
-    void add_watched(std::span<const TetId> tets) {
-        lists_.watched.insert(lists_.watched.end(), tets.begin(), tets.end());
+    std::span<TetId> add_watched(std::size_t count) {
+        lists_.watched.resize(lists_.watched.size() + count);
+        return std::span(lists_.watched).last(count);
     }
     void advance_clock(std::uint32_t time) { clock_ = time; }
     /// Gives tets another label. [step]
@@ -259,7 +262,10 @@ public:
     /// dead ids.
     std::span<const TetId> changes() const { return lists_.changed; }
     /// Moves the change list to `out` and starts a new one.
-    void take_changes(std::vector<TetId>& out);
+    void take_changes(LargeVector<TetId>& out);
+    /// Uses the memory of a list that take_changes() filled for the next changes, if there are none
+    /// yet; the list is empty afterwards.
+    void reuse(LargeVector<TetId>& taken);
     /// Starts a list that stays when the change list is taken: the tets that are on the change list
     /// now, and those that change later, each once. The list is not saved. [step]
     void start_watch();

@@ -51,7 +51,7 @@
 #endif
 
 /// Major: any change that breaks old plugins. Minor: virtual functions or fields added at the end.
-#define DSC_ABI_MAJOR 7
+#define DSC_ABI_MAJOR 8
 #define DSC_ABI_MINOR 0
 
 /// The fingerprint of the translation unit that contains it. `align` changes with -mavx, which

@@ -98,9 +98,10 @@ public:
     };
 
     /// The faces that the vertex leads, in the order of a view, if no tet of its star was made,
-    /// removed or relabelled; `known` says whether.
+    /// removed or relabelled; `known` says whether. `i` is its index in the last view; any number
+    /// if it was not there.
     std::span<const Face> faces_led_by(const mesh::Complex& complex, mesh::VertexId v,
-                                       bool& known) const;
+                                       std::uint32_t i, bool& known) const;
     /// Whether the view is the last one, and only positions have changed since then.
     bool only_moved(const mesh::Complex& complex, const SurfaceView& view) const;
     /// Stores the faces of a view of this complex; vertex i leads `counts[i]` of them. `workers` is
@@ -121,20 +122,20 @@ public:
         };
         std::vector<std::uint64_t> keys;  ///< birth and number of each interface vertex
         std::vector<Block> blocks;
-        std::vector<std::uint32_t> index;   ///< view index per complex vertex
+        std::vector<std::uint32_t> index;   ///< view index per complex vertex; undefined for
+                                            ///< vertices that are not in the view
+        std::vector<std::uint32_t> last;    ///< index of each view vertex in the view before
         std::vector<std::uint32_t> counts;  ///< number of faces that each view vertex leads
     };
     Arrays& arrays() { return arrays_; }
 
 private:
-    bool known(const mesh::Complex& complex, mesh::VertexId v) const;
+    bool known(const mesh::Complex& complex, mesh::VertexId v, std::uint32_t i) const;
 
     Arrays arrays_;
     std::uint32_t clock_ = 0;            // of the complex when the view was made
     std::vector<std::uint32_t> births_;  // of the view's vertices
     std::vector<std::uint32_t> starts_;  // first face that vertex i leads
-    std::vector<std::uint32_t> index_;   // view index per complex vertex; undefined for vertices
-                                         // that were not in the view
     std::vector<Face> faces_;
 };
 
