@@ -1,6 +1,4 @@
 // Edge collapse, with and without the interface (method.md, section 4.7).
-#include <optional>
-
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/star_quality.hpp>
 
@@ -18,6 +16,8 @@ struct CollapseScratch {
     };
     mesh::EdgeRing ring;
     End a, b;
+    std::vector<TetId> survivors;  // the tets that the added ones come from
+    mesh::TetIndex places;         // of the survivors
     std::vector<std::array<VertexId, 3>> fan, faces;
     std::vector<VertexId> concerned;  // vertices whose topology is tested
 
@@ -30,14 +30,7 @@ namespace {
 using repair::CollapseMode;
 using End = CollapseScratch::End;
 
-// The edge to collapse: `removed` is removed, `kept` lies at (1 - weight) kept + weight removed
-// afterwards.
-struct Plan {
-    VertexId kept = mesh::none, removed = mesh::none;
-    double weight = 0.0;
-    float least = -1.0F;
-    std::optional<Vec3> wanted{};  // the place instead of the one that `weight` gives
-};
+using Plan = CollapsePlan;
 
 class Collapse {
 public:
@@ -53,6 +46,13 @@ public:
     void walk() {
         own_.a.star = c_.cached_star(a_, own_.a.walk).tets;
         own_.b.star = c_.cached_star(b_, own_.b.walk).tets;
+    }
+
+    // Asks the memory for what link() and replace() will read.
+    void prefetch() const {
+        for (const End* end : {&own_.a, &own_.b}) {
+            for (const TetId t : end->star) c_.prefetch_tet(t);
+        }
     }
 
     float least_quality_of_stars() const {
@@ -86,6 +86,7 @@ public:
     void build(const Plan& plan) {
         mesh::Edit& edit = bench_.edit;
         edit.clear();
+        own_.survivors.clear();
         edit.deleted = plan.removed;
         edit.removed.assign(end(plan.removed).star.begin(), end(plan.removed).star.end());
         for (const TetId t : end(plan.removed).star) {
@@ -93,6 +94,7 @@ public:
             mesh::NewTet tet{c_.tet(t).v, c_.label(t)};
             std::replace(tet.v.begin(), tet.v.end(), plan.removed, plan.kept);
             edit.added.push_back(tet);
+            own_.survivors.push_back(t);
         }
         if (plan.weight == 0.0 && !plan.wanted) return;
         edit.moved = plan.kept;
@@ -101,6 +103,24 @@ public:
             if (!remains(t, plan.removed)) continue;
             edit.removed.push_back(t);
             edit.added.push_back({c_.tet(t).v, c_.label(t)});
+            own_.survivors.push_back(t);
+        }
+    }
+
+    // Writes the neighbours of the added tets as mesh::Complex::link() would, but without a search:
+    // their faces are those of the survivors. It need not test whether they fill the cavity: as all
+    // of them are positive and have one common vertex, they do.
+    void link(const Plan& plan) {
+        mesh::Edit& edit = bench_.edit;
+        for (const TetId t : edit.removed) {
+            for (const VertexId v : c_.tet(t).v) c_.prefetch_star_entry(v);  // for replace()
+        }
+        own_.places.clear();
+        for (const TetId t : own_.survivors) own_.places.insert(t);
+        edit.neighbours.resize(edit.added.size());
+        for (std::size_t i = 0; i < edit.added.size(); ++i) {
+            for (unsigned f = 0; f < 4; ++f)
+                edit.neighbours[i][f] = beyond(c_.across(own_.survivors[i], f), plan);
         }
     }
 
@@ -170,6 +190,27 @@ public:
 private:
     End& end(VertexId v) const { return v == a_ ? own_.a : own_.b; }
 
+    // What lies across a face of a survivor after the collapse; `code` is what lies there now.
+    std::uint32_t beyond(std::uint32_t code, const Plan& plan) const {
+        if (code == mesh::none) return mesh::none;
+        const mesh::Tet& tet = c_.tet(mesh::neighbour_tet(code));
+        const bool dies = mesh::has_vertex(tet, plan.removed) && mesh::has_vertex(tet, plan.kept);
+        if (!dies) return code_after(code);
+        // The two faces of this tet that contain one end each become one face.
+        const bool at_removed = tet.v[mesh::neighbour_face(code)] == plan.kept;
+        const unsigned other = mesh::index_of(tet, at_removed ? plan.removed : plan.kept);
+        return code_after(c_.across(mesh::neighbour_tet(code), other));
+    }
+    // The code of the added tet, if the tet of this code is a survivor.
+    std::uint32_t code_after(std::uint32_t code) const {
+        const std::uint32_t place = code == mesh::none
+                                        ? mesh::TetIndex::absent
+                                        : own_.places.find(mesh::neighbour_tet(code));
+        return place == mesh::TetIndex::absent
+                   ? code
+                   : mesh::Edit::virtual_code | (4 * place + mesh::neighbour_face(code));
+    }
+
     // Whether a tet of one end's star does not contain the other end.
     bool remains(TetId t, VertexId other) const { return !mesh::has_vertex(c_.tet(t), other); }
 
@@ -205,7 +246,7 @@ Outcome finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool inte
         if (change.exceeds(bench.bounds_at(plan.kept, plan.removed))) return Refusal::bound;
     }
     if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
-    if (!bench.complex.link(bench.edit)) return Refusal::irregular;
+    collapse.link(plan);
     if (interface_edge) {
         if (const Outcome o = collapse.check_topology(); o.refused()) return o;
         if (const Outcome o = check_creases(bench, plan.kept, plan.removed); o.refused()) return o;
@@ -218,17 +259,12 @@ Outcome finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool inte
     return success;
 }
 
-// The collapse of edge (a, b) that is best by quality, and what it depends on.
-struct Choice {
-    Plan best;
-    bool interface_edge = false;
-    bool a_moves = false, b_moves = false;
-    float old = 1.0F, must_exceed = 0.0F;  // least qualities
-};
+}  // namespace
 
 // Reads the stars of a and b only.
-Outcome choose(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode,
-               float accept_above, Choice& choice) {
+Outcome choose_collapse(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode,
+                        float accept_above, CollapseChoice& choice) {
+    choice = {a, b, {}};
     const mesh::Complex& c = bench.complex;
     // Only an edge with both ends on the box or on the interface can lie there.
     bool& interface_edge = choice.interface_edge;
@@ -269,22 +305,19 @@ Outcome choose(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode m
     return best.kept == mesh::none ? Outcome(Refusal::quality) : success;
 }
 
-}  // namespace
-
-Outcome may_collapse(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode,
-                     float accept_above) {
-    Choice choice;
-    return choose(bench, t, a, b, mode, accept_above, choice);
-}
-
 Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode,
                       float accept_above) {
-    Choice choice;
-    if (const Outcome o = choose(bench, t, a, b, mode, accept_above, choice); o.refused()) return o;
-    const auto& [best, interface_edge, a_moves, b_moves, old, must_exceed] = choice;
+    CollapseChoice choice;
+    const Outcome o = choose_collapse(bench, t, a, b, mode, accept_above, choice);
+    return o.refused() ? o : collapse_as_chosen(bench, choice);
+}
+
+Outcome collapse_as_chosen(Workbench& bench, const CollapseChoice& choice) {
+    const auto& [a, b, best, interface_edge, a_moves, b_moves, old, must_exceed] = choice;
     const mesh::Complex& c = bench.complex;
-    // The stars that choose() found are still in the scratch arrays.
     Collapse collapse(bench, a, b, interface_edge);
+    collapse.walk();
+    collapse.prefetch();
     const Outcome result = finish(bench, collapse, best, interface_edge, must_exceed, old);
     if (result != Refusal::bound || !interface_edge || !bench.limits.keeps_creases()) return result;
     // Also with exchanged ends, or into the end that lies on a crease.

@@ -76,6 +76,8 @@ Outcome on_edges(Workbench& bench, const Request& request, TetId t, const Foresi
         case Operation::edge_collapse:
             sort_by_length(edges);
             return first_success(edges, known, [&](const Edge& e) {
+                if (known.choice.a == e.a && known.choice.b == e.b)
+                    return collapse_as_chosen(bench, known.choice);
                 return collapse_edge(bench, t, e.a, e.b, request.mode, request.accept_above);
             });
         default: {
@@ -147,13 +149,14 @@ Foresight foresee(Workbench& bench, const Request& request) {
     if (!removes) sort_by_length(edges);
     Foresight known;
     for (const Edge& e : edges) {
-        const Outcome o =
-            removes ? may_remove(bench, t, e.a, e.b, request.accept_above)
-                    : may_collapse(bench, t, e.a, e.b, request.mode, request.accept_above);
-        if (!o.refused()) break;
+        const Outcome o = removes ? may_remove(bench, t, e.a, e.b, request.accept_above)
+                                  : choose_collapse(bench, t, e.a, e.b, request.mode,
+                                                    request.accept_above, known.choice);
+        if (!o.refused()) return known;
         known.reason = stronger(known.reason, o);
         ++known.edges;
     }
+    known.choice = {};
     return known;
 }
 

@@ -25,6 +25,20 @@ Foresight Foresights::of(std::size_t i) {
     return holds(requests_[i]) ? foresights_[i - first_] : Foresight{};
 }
 
+// What a judge reads of the requests after i, which end before `end`.
+void Foresights::prefetch_tets(std::size_t i, std::size_t end) const {
+    constexpr std::size_t near = 3, far = 6;  // requests ahead
+    const mesh::Complex& c = bench_.complex;
+    const auto tet = [&](std::size_t at, const auto& fetch) {
+        if (at < end && requests_[at].tet < c.tet_slots()) fetch(requests_[at].tet);
+    };
+    tet(i + far, [&c](TetId t) { c.prefetch_tet(t); });
+    tet(i + near, [&c](TetId t) {
+        c.prefetch_vertices(t);
+        c.prefetch_across(t);
+    });
+}
+
 // The stars of the tet have not changed since the request was judged.
 bool Foresights::holds(const repair::Request& request) const {
     const mesh::Complex& c = bench_.complex;
@@ -51,8 +65,10 @@ void Foresights::look(std::size_t first) {
     }
     workers_->for_blocks(foresights_.size(), block, [this](std::size_t from, std::size_t to) {
         Workbench& judge = *judges_[from / block];
-        for (std::size_t i = from; i < to; ++i)
+        for (std::size_t i = from; i < to; ++i) {
+            prefetch_tets(first_ + i, first_ + to);
             foresights_[i] = foresee(judge, requests_[first_ + i]);
+        }
     });
 }
 

@@ -26,10 +26,11 @@ public:
     Foresight of(std::size_t i);
 
 private:
-    static constexpr std::size_t most = 512, block = 32;  // requests that are judged together, and
-                                                          // by one thread
+    static constexpr std::size_t most = 1024, block = 32;  // requests that are judged together, and
+                                                           // by one thread
     bool holds(const repair::Request& request) const;
     void look(std::size_t first);
+    void prefetch_tets(std::size_t i, std::size_t end) const;
 
     const Workbench& bench_;
     std::span<const repair::Request> requests_;

@@ -4,6 +4,8 @@
 // result's least quality must be above min(old least, accept_above). The sections named below are
 // those of method.md.
 
+#include <optional>
+
 #include "kernel/star_loop.hpp"
 #include "kernel/workbench.hpp"
 
@@ -26,12 +28,32 @@ Outcome split_edge(Workbench& bench, TetId t, VertexId a, VertexId b, double s);
 Outcome split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point);
 /// Gives half of v's star, in the direction of w, a second vertex (section 4.6).
 Outcome split_vertex(Workbench& bench, VertexId v, VertexId w);
+/// The collapse of an edge: `removed` is removed, `kept` lies at (1 - weight) kept + weight removed
+/// afterwards.
+struct CollapsePlan {
+    VertexId kept = mesh::none, removed = mesh::none;
+    double weight = 0.0;
+    float least = -1.0F;           ///< quality of the result
+    std::optional<Vec3> wanted{};  ///< the place instead of the one that `weight` gives
+};
+/// The collapse of edge (a, b) that is best by quality, and what it depends on.
+struct CollapseChoice {
+    VertexId a = mesh::none, b = mesh::none;
+    CollapsePlan best;
+    bool interface_edge = false;
+    bool a_moves = false, b_moves = false;
+    float old = 1.0F, must_exceed = 0.0F;  ///< least qualities
+};
 /// Collapses edge (a, b) of tet t (section 4.7).
 Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, repair::CollapseMode mode,
                       float accept_above);
-/// The same for collapse_edge(): whether there is a place of sufficient quality.
-Outcome may_collapse(Workbench& bench, TetId t, VertexId a, VertexId b, repair::CollapseMode mode,
-                     float accept_above);
+/// The first half of collapse_edge(): whether there is a place of sufficient quality, and which.
+/// Both hold as long as the stars of a and b do not change. [parallel] with a bench for each
+/// thread.
+Outcome choose_collapse(Workbench& bench, TetId t, VertexId a, VertexId b,
+                        repair::CollapseMode mode, float accept_above, CollapseChoice& choice);
+/// The second half: tests and commits the collapse.
+Outcome collapse_as_chosen(Workbench& bench, const CollapseChoice& choice);
 /// Collapses the interface edge (kept, removed) of tet t into one vertex at `place`, within the
 /// edit bounds and above the quality floor. A kept vertex that may not move stays at its place
 /// (section 4.7).
@@ -60,6 +82,8 @@ Outcome compound(Workbench& bench, TetId t, const repair::Request& request);
 struct Foresight {
     std::uint8_t edges = 0;
     Refusal reason = Refusal::not_applicable;  ///< the strongest of the reasons
+    /// What choose_collapse() finds for the next edge; without vertices if it was not asked.
+    CollapseChoice choice{};
 };
 /// Tries the edges of an edge removal or collapse up to the first that may succeed. Nothing is
 /// certain of other requests. [parallel] with a bench for each thread.

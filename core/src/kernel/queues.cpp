@@ -22,26 +22,10 @@ bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
     return changed && !lost();
 }
 
-// Few tets are dead, so bits say which: the tets themselves, which lie far apart in memory, need
-// not be looked at.
 void RepairQueues::drop_dead(Workers* workers) {
-    const std::span<const TetId> dead = complex_.dead_tets();
-    if (dead.size() > dirty_.size()) {
-        filter_.keep_if(
-            workers, dirty_, [this](TetId t) { return complex_.tet_alive(t) && !lost(); },
-            [this](TetId t) { complex_.prefetch(t); });
-        return;
-    }
-    dead_.resize((complex_.tet_slots() + 63) / 64, 0);
-    const auto word = [this](TetId t) -> std::uint64_t& { return dead_[t / 64]; };
-    const auto bit = [](TetId t) { return std::uint64_t{1} << t % 64; };
-    for (const TetId t : dead) word(t) |= bit(t);
-    if (!dead.empty() || drop_ != 0) {
-        filter_.keep_if(
-            workers, dirty_, [&](TetId t) { return (word(t) & bit(t)) == 0 && !lost(); },
-            [](TetId) {});
-    }
-    for (const TetId t : dead) word(t) = 0;
+    if (complex_.tet_count() == complex_.tet_slots() && drop_ == 0) return;
+    filter_.keep_if(
+        workers, dirty_, [this](TetId t) { return complex_.in_use(t) && !lost(); }, [](TetId) {});
 }
 
 // Nearly all refused tets have changed since the last round, and so have a place in the list.

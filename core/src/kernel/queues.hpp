@@ -84,10 +84,9 @@ private:
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;
     mesh::TetIndex seen_;
-    std::vector<std::uint64_t> dead_;  // a bit per tet slot, for drop_dead()
-    std::vector<Verdict> verdicts_;    // per failure; for several threads
-    std::vector<Failure> memory_;      // audit only, per tet: its last failure, independent of the
-                                       // queues
+    std::vector<Verdict> verdicts_;  // per failure; for several threads
+    std::vector<Failure> memory_;    // audit only, per tet: its last failure, independent of the
+                                     // queues
     ParallelFilter filter_;
     std::uint32_t last_clock_ = 0;
 };

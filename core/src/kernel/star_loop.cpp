@@ -71,23 +71,26 @@ std::uint8_t StarLoop::leaf_of_new(mesh::VertexId v) {
     return leaf_at(complex_.position(v)) + 1;
 }
 
-// Writes date_of_vertex_ and leaf_of_, and gives vertices without a leaf the leaf of a neighbour.
-// False if a vertex occurs twice, and so has two turns.
+// Writes leaf_of_, and date_of_vertex_ for the vertices that blocks may ask each other for; gives
+// vertices without a leaf the leaf of a neighbour. False if one of those occurs twice, and so has
+// two turns.
 bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& workers) {
     leaf_of_.resize(vertices.size());
     std::atomic<bool> twice{false}, some_new{false};
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
-            if (turn + ahead < end) {
-                complex_.prefetch_vertex(vertices[turn + ahead]);
-                prefetch_line_to_write(&date_of_vertex_[vertices[turn + ahead]]);
+            if (turn + ahead < end) complex_.prefetch_vertex(vertices[turn + ahead]);
+            if (turn + ahead / 2 < end) {
+                const mesh::VertexId v = vertices[turn + ahead / 2];
+                if (!is_inner(v)) prefetch_line_to_write(&date_of_vertex_[v]);
             }
-            const std::atomic_ref date(date_of_vertex_[vertices[turn]]);
-            if (date.exchange(date_of(turn), std::memory_order_relaxed) > start_)
-                twice.store(true, std::memory_order_relaxed);
             const std::atomic_ref mark(complex_.mark(vertices[turn]));
             const std::uint8_t known = mark.load(std::memory_order_relaxed);
             leaf_of_[turn] = known & leaf_bits;
+            if ((known & inner_bit) != 0) continue;  // its block comes to it in order
+            const std::atomic_ref date(date_of_vertex_[vertices[turn]]);
+            if (date.exchange(date_of(turn), std::memory_order_relaxed) > start_)
+                twice.store(true, std::memory_order_relaxed);
             if ((known & listed_bit) == 0)
                 mark.store(known | listed_bit, std::memory_order_relaxed);
             if (leaf_of_[turn] == no_leaf) some_new.store(true, std::memory_order_relaxed);
@@ -205,7 +208,12 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
         date_of_vertex_.resize(complex_.vertex_slots(), 0);
     }
     complex_.take_reshaped(reshaped_);
-    for (const mesh::VertexId v : reshaped_) complex_.mark(v) &= leaf_bits | listed_bit;
+    workers.for_blocks(reshaped_.size(), part, [this](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + ahead < end) complex_.prefetch_vertex(reshaped_[i + ahead]);
+            complex_.mark(reshaped_[i]) &= leaf_bits | listed_bit;
+        }
+    });
     const bool is_new = loops_++ % most_loops == 0;
     if (is_new) make_planes(vertices);
     if (!take_turns(vertices, workers)) return false;

@@ -48,11 +48,13 @@ TetId Complex::allocate_tet() {
     if (!free_tets_.empty()) {
         const TetId t = free_tets_.back();
         free_tets_.pop_back();
+        free_slots_.erase(t);
         return t;
     }
     const auto t = static_cast<TetId>(tets_.size());
     tets_.emplace_back();
     neighbours_.emplace_back();
+    free_slots_.grow(tets_.size());
     return t;
 }
 
@@ -273,6 +275,7 @@ VertexId Complex::replace(Edit& edit) {
         tets_[t].quality = no_quality;
         tets_[t].birth_date = clock_;
         free_tets_.push_back(t);
+        free_slots_.insert(t);
     }
     if (edit.deleted != none) {
         set_phases(edit.deleted, 1);
@@ -301,6 +304,7 @@ Complex Complex::assemble(std::vector<Vec3> points, LargeVector<TetCorners> tets
     c.interface_slots_.assign(c.vertices_.size(), none);
     c.stars_.grow(c.vertices_.size());
     c.tets_.resize(tets.size());
+    c.free_slots_.grow(tets.size());
     c.neighbours_ = std::move(neighbours);
     const std::size_t n = c.tets_.size();
     c.lists_.changed.reserve(n + n / 8);  // more may be made before the list is taken

@@ -42,6 +42,10 @@ Complex Complex::load(StateReader& in) {
             "start the run again");
     in.list(c.free_vertices_);
     in.list(c.free_tets_);
+    c.free_slots_.grow(c.tets_.size());
+    for (const TetId t : c.free_tets_) {
+        if (t < c.tets_.size()) c.free_slots_.insert(t);
+    }
     in.list(c.interface_);
     in.list(c.lists_.changed);
     in.value(c.taken_clock_);

@@ -194,6 +194,11 @@ void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMe
     });
     list_faces(view, n, workers, arrays);
     if (memory != nullptr) memory->keep(c, view, arrays.counts, workers);
+}
+
+// The faces round each vertex.
+void list_faces_of_vertices(SurfaceView& view) {
+    const std::size_t n = view.vertex_ids.size();
     view.face_offsets.assign(n + 1, 0);
     for (const auto& face : view.faces) {
         for (const auto v : face) ++view.face_offsets[v + 1];
@@ -221,8 +226,23 @@ void find_normals(SurfaceView& view, std::size_t begin, std::size_t end) {
     }
 }
 
-// Positions, areas and normals of a connected view.
-void measure(const mesh::Complex& c, SurfaceView& view, Workers* workers) {
+// The areas and normals of some faces.
+void measure_faces(SurfaceView& view, std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+        const Vec3 &p = view.positions[view.faces[f][0]], &q = view.positions[view.faces[f][1]],
+                   &r = view.positions[view.faces[f][2]];
+        const Vec3 cross = (q - p).cross(r - p);
+        const double length = cross.norm();
+        view.face_areas[f] = 0.5 * length;
+        view.face_normals[f] = length > 0.0 ? Vec3(cross / length) : Vec3(Vec3::Zero());
+    }
+}
+
+std::size_t blocks_of(std::size_t count) { return (count + measure_block - 1) / measure_block; }
+
+// Positions, areas and normals of a connected view, and the faces round each vertex, if they are
+// not known.
+void measure(const mesh::Complex& c, SurfaceView& view, bool faces_known, Workers* workers) {
     const std::size_t n = view.vertex_ids.size(), m = view.faces.size();
     view.positions.resize(n);
     for_blocks(workers, n, measure_block, [&](std::size_t begin, std::size_t end) {
@@ -234,20 +254,18 @@ void measure(const mesh::Complex& c, SurfaceView& view, Workers* workers) {
     view.age.assign(n, 0);
     view.face_normals.resize(m);
     view.face_areas.resize(m);
-    for_blocks(workers, m, measure_block, [&view](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f < end; ++f) {
-            const Vec3 &p = view.positions[view.faces[f][0]], &q = view.positions[view.faces[f][1]],
-                       &r = view.positions[view.faces[f][2]];
-            const Vec3 cross = (q - p).cross(r - p);
-            const double length = cross.norm();
-            view.face_areas[f] = 0.5 * length;
-            view.face_normals[f] = length > 0.0 ? Vec3(cross / length) : Vec3(Vec3::Zero());
+    // One thread lists the faces of the vertices, as block 0.
+    for_blocks(workers, blocks_of(m) + 1, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            if (b > 0)
+                measure_faces(view, (b - 1) * measure_block, std::min(b * measure_block, m));
+            else if (!faces_known)
+                list_faces_of_vertices(view);
         }
     });
     view.normals.resize(n);
     // The mean edge is a sum in the order of the faces, so one thread computes it, as block 0.
-    const std::size_t blocks = (n + measure_block - 1) / measure_block;
-    for_blocks(workers, blocks + 1, 1, [&view, n](std::size_t begin, std::size_t end) {
+    for_blocks(workers, blocks_of(n) + 1, 1, [&view, n](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
             if (b == 0)
                 view.mean_edge = mean_edge(view.positions, view.faces);
@@ -260,12 +278,13 @@ void measure(const mesh::Complex& c, SurfaceView& view, Workers* workers) {
 }  // namespace
 
 void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMemory* memory) {
-    if (memory != nullptr && memory->only_moved(c, view)) {
+    const bool only_moved = memory != nullptr && memory->only_moved(c, view);
+    if (only_moved) {
         memory->keep(c);
     } else {
         connect(c, view, workers, memory);
     }
-    measure(c, view, workers);
+    measure(c, view, only_moved, workers);
 }
 
 }  // namespace dsc::surface

@@ -1,11 +1,19 @@
 // A vector in large pages.
+#include <algorithm>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <numeric>
+#include <string>
+
+#ifdef __linux__
+#include <unistd.h>
+#endif
 
 #include <doctest/doctest.h>
 
 #include <dsc/base/large_vector.hpp>
+#include <dsc/base/release.hpp>
 
 using namespace dsc;
 
@@ -32,3 +40,64 @@ TEST_CASE("memory that no machine has is refused, and not half given") {
     CHECK_THROWS_AS(LargePages<double>().allocate(most), std::bad_alloc);
     CHECK_THROWS_AS(allocate_large_pages(most - 1), std::bad_alloc);
 }
+
+TEST_CASE("release gives back what an empty list of braces keeps") {
+    LargeVector<int> list(1000, 7);
+    list = {};
+    CHECK(list.empty());
+    CHECK(list.capacity() >= 1000);  // the reason for release()
+    release(list);
+    CHECK(list.capacity() == 0);
+    std::string text(1000, 'x');
+    release(text);
+    CHECK(text.empty());
+    CHECK(text.capacity() < 1000);
+}
+
+TEST_CASE("a list gives back room for three times what it needs, but nothing small") {
+    constexpr std::size_t many = 4 * large_page / sizeof(std::uint32_t);
+    LargeVector<std::uint32_t> list(many, 1);
+    give_back_room(list, many / 2);
+    CHECK(list.size() == many);
+    give_back_room(list, many / 4);
+    CHECK(list.empty());
+    CHECK(list.capacity() == many / 4);
+    LargeVector<std::uint32_t> small(1000, 1);
+    give_back_room(small, 0);
+    CHECK(small.size() == 1000);
+}
+
+TEST_CASE("resize adds elements with the initial values of their type") {
+    struct WithValue {
+        std::uint32_t number = 42;
+    };
+    LargeVector<WithValue> list;
+    list.resize(1000);
+    CHECK(std::all_of(list.begin(), list.end(), [](const WithValue& x) { return x.number == 42; }));
+    LargeVector<std::uint32_t> filled(1000, 3);
+    filled.resize(2000, 4);
+    CHECK(std::count(filled.begin(), filled.end(), 3U) == 1000);
+    CHECK(std::count(filled.begin(), filled.end(), 4U) == 1000);
+}
+
+#ifdef __linux__
+namespace {
+
+// What the process has in memory, in bytes.
+std::size_t resident() {
+    std::size_t pages = 0, total = 0;
+    std::ifstream("/proc/self/statm") >> total >> pages;
+    return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+TEST_CASE("memory in large pages goes back to the system when it is freed") {
+    constexpr std::size_t bytes = 64 * large_page;
+    const std::size_t before = resident();
+    LargeVector<char> list(bytes, 1);
+    CHECK(resident() > before + bytes / 2);
+    release(list);
+    CHECK(resident() < before + bytes / 4);
+}
+#endif

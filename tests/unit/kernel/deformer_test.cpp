@@ -123,6 +123,29 @@ TEST_CASE("destinations are clamped to the box shrunk by 2 L") {
     CHECK(mesh::validate(d.complex()).faults == std::vector<std::string>{});
 }
 
+TEST_CASE("a vertex that is sent twice goes to its last destination, with any number of threads") {
+    const auto run = [](Workers* workers, bool twice) {
+        Deformer d(ball(), {}, workers);
+        std::vector<VertexId> vertices = by_birth(d.complex());
+        // Blocks of vertices are sent together, so the doubles lie far apart and close together.
+        std::vector<Vec3> displacements(vertices.size(), Vec3(0.01, 0.0, 0.0));
+        const std::size_t count = vertices.size();
+        for (std::size_t i = 0; twice && i < count; i += 7) {
+            vertices.insert(vertices.begin(), vertices[count - 1 - i / 7]);
+            displacements.insert(displacements.begin(), Vec3(0.0, 0.02, -0.01));
+        }
+        RepairPolicy moves_only;
+        moves_only.topology.thickness = 0.0;
+        const StepReport report = d.step(vertices, displacements, moves_only);
+        CHECK(report.requested == vertices.size());
+        return d.complex().to_mesh().points;
+    };
+    Workers workers(3);
+    const std::vector<Vec3> once = run(nullptr, false);
+    CHECK(run(nullptr, true) == once);
+    CHECK(run(&workers, true) == once);
+}
+
 TEST_CASE("a shrinking sphere vanishes as one counted event") {
     Deformer d(ball(12, 0.7));
     kernel::EventCounts counts;

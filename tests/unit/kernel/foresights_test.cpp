@@ -44,7 +44,7 @@ void set_limits(Workbench& bench) {
 }  // namespace
 
 TEST_CASE("foresight: requests that are judged ahead have the same outcomes and the same mesh") {
-    std::size_t committed = 0, refused = 0, foreseen = 0, out_of_date = 0;
+    std::size_t committed = 0, refused = 0, foreseen = 0, chosen = 0, out_of_date = 0;
     for (const test::LabelledMesh& labelled : test::labelled_meshes()) {
         CAPTURE(labelled.name);
         mesh::Complex plain = labelled.complex, judged = labelled.complex;
@@ -65,6 +65,7 @@ TEST_CASE("foresight: requests that are judged ahead have the same outcomes and 
             for (std::size_t i = 0; i < requests.size(); ++i) {
                 const Foresight known = foresights.of(i);
                 if (known.edges > 0) ++foreseen;
+                if (known.choice.a != mesh::none) ++chosen;
                 if (known.edges == 0 && at_start[i].edges > 0) ++out_of_date;
                 const Outcome expected = execute(plain_bench, requests[i]);
                 REQUIRE(execute(judged_bench, requests[i], known) == expected);
@@ -80,6 +81,7 @@ TEST_CASE("foresight: requests that are judged ahead have the same outcomes and 
     CHECK(committed > 1000);
     CHECK(refused > 1000);
     CHECK(foreseen > 1000);
+    CHECK(chosen > 300);
     CHECK(out_of_date > 100);
 }
 

@@ -54,7 +54,7 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
                                  "cloud::FilterReport 120\n"
                                  "hooks::FilterContext 32\n"
                                  "mesh::TetMesh 72\n"
-                                 "mesh::Complex 616\n"
+                                 "mesh::Complex 640\n"
                                  "repair::RepairRound 112\n"
                                  "repair::Request 44\n"
                                  "repair::TopologyCandidate 48\n"

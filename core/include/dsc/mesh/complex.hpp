@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <dsc/base/bits.hpp>
 #include <dsc/base/large_vector.hpp>
 #include <dsc/base/prefetch.hpp>
 #include <dsc/base/workers.hpp>
@@ -62,10 +63,10 @@ public:
     std::size_t tet_slots() const { return tets_.size(); }
     std::size_t vertex_count() const { return vertices_.size() - free_vertices_.size(); }
     std::size_t tet_count() const { return tets_.size() - free_tets_.size(); }
-    /// The slots without a tet, in unspecified order.
-    std::span<const TetId> dead_tets() const { return free_tets_; }
     bool vertex_alive(VertexId v) const { return shapes_[v].seed != none; }
     bool tet_alive(TetId t) const { return tets_[t].v[0] != none; }
+    /// The same from one bit per slot: for loops that read nothing else of the tets.
+    bool in_use(TetId t) const { return !free_slots_.contains(t); }
 
     const Vec3& position(VertexId v) const { return vertices_[v].position; }
     const Tet& tet(TetId t) const { return tets_[t]; }
@@ -342,6 +343,7 @@ private:
     LargeVector<std::uint32_t> interface_slots_;
     std::vector<VertexId> free_vertices_;
     std::vector<TetId> free_tets_;
+    Bits free_slots_;  // the same set
     std::vector<VertexId> interface_;
     ChangeLists lists_;
     std::vector<TetId> last_added_;
