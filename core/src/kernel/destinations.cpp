@@ -77,10 +77,12 @@ Destinations::Sent Destinations::send(std::span<const VertexId> vertices,
     // How many come before each block.
     sent_.assign((vertices.size() + block - 1) / block, {});
     for_blocks(workers, vertices.size(), block, [&](std::size_t begin, std::size_t end) {
+        std::uint64_t requested = 0;
         for (std::size_t i = begin; i < end; ++i) {
             if (i + ahead < end) prefetch(vertices[i + ahead]);
-            sent_[begin / block].requested += goes(i) ? 1 : 0;
+            requested += goes(i) ? 1 : 0;
         }
+        sent_[begin / block].requested = requested;
     });
     std::uint64_t count = 0;
     for (Sent& sent : sent_) count += std::exchange(sent.requested, count);
@@ -88,9 +90,11 @@ Destinations::Sent Destinations::send(std::span<const VertexId> vertices,
     active_.resize(count);
     if (count == 0) return {};
     for_blocks(workers, vertices.size(), block, [&](std::size_t begin, std::size_t end) {
-        Sent& sent = sent_[begin / block];
+        const std::size_t b = begin / block;
+        Sent& sent = sent_[b];
         auto at = static_cast<std::uint32_t>(sent.requested);
-        for (std::size_t i = begin; i < end; ++i) {
+        const std::uint64_t last = b + 1 < sent_.size() ? sent_[b + 1].requested : count;
+        for (std::size_t i = begin; at < last; ++i) {
             if (i + ahead < end) complex_.prefetch_birth(vertices[i + ahead]);
             if (!goes(i)) continue;
             const VertexId v = vertices[i];
