@@ -112,6 +112,7 @@ TEST_CASE("an edge split and its inverse through replace()") {
         for (TetId s = 0; s < c.tet_slots(); ++s) REQUIRE(c.in_use(s) == c.tet_alive(s));
     }
     CHECK(splits > 10);
+    CHECK(labelled_volume(c) == doctest::Approx(before).epsilon(1e-12));
 }
 
 TEST_CASE("link refuses a filling that does not close") {
