@@ -71,26 +71,24 @@ std::uint8_t StarLoop::leaf_of_new(mesh::VertexId v) {
     return leaf_at(complex_.position(v)) + 1;
 }
 
-// Writes leaf_of_, and date_of_vertex_ for the vertices that blocks may ask each other for; gives
-// vertices without a leaf the leaf of a neighbour. False if one of those occurs twice, and so has
-// two turns.
+// Writes date_of_vertex_ and leaf_of_, and gives vertices without a leaf the leaf of a neighbour.
+// False if a vertex occurs twice, and so has two turns. Inner vertices get a date, too: the planes
+// may be made anew after this, and then they need not be inner.
 bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& workers) {
     leaf_of_.resize(vertices.size());
     std::atomic<bool> twice{false}, some_new{false};
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
-            if (turn + ahead < end) complex_.prefetch_vertex(vertices[turn + ahead]);
-            if (turn + ahead / 2 < end) {
-                const mesh::VertexId v = vertices[turn + ahead / 2];
-                if (!is_inner(v)) prefetch_line_to_write(&date_of_vertex_[v]);
+            if (turn + ahead < end) {
+                complex_.prefetch_vertex(vertices[turn + ahead]);
+                prefetch_line_to_write(&date_of_vertex_[vertices[turn + ahead]]);
             }
-            const std::atomic_ref mark(complex_.mark(vertices[turn]));
-            const std::uint8_t known = mark.load(std::memory_order_relaxed);
-            leaf_of_[turn] = known & leaf_bits;
-            if ((known & inner_bit) != 0) continue;  // its block comes to it in order
             const std::atomic_ref date(date_of_vertex_[vertices[turn]]);
             if (date.exchange(date_of(turn), std::memory_order_relaxed) > start_)
                 twice.store(true, std::memory_order_relaxed);
+            const std::atomic_ref mark(complex_.mark(vertices[turn]));
+            const std::uint8_t known = mark.load(std::memory_order_relaxed);
+            leaf_of_[turn] = known & leaf_bits;
             if ((known & listed_bit) == 0)
                 mark.store(known | listed_bit, std::memory_order_relaxed);
             if (leaf_of_[turn] == no_leaf) some_new.store(true, std::memory_order_relaxed);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -256,6 +257,43 @@ TEST_CASE("star loop: a vertex sees the dates of its neighbours' moves as with o
             CHECK(other.first == one.first);
             CHECK(other.second == one.second);
         }
+    }
+}
+
+TEST_CASE(
+    "star loop: a vertex sees its neighbours' moves also after the blocks have been made anew "
+    "for a list in another part of space") {
+    const auto run = [](Workers* workers) {
+        mesh::Complex c = cells();
+        const std::vector<VertexId> all = inner_vertices(c);
+        // A corner of the box, which is only a small part of the blocks of the whole list.
+        std::vector<VertexId> corner;
+        const Vec3 centre = c.box().centre();
+        for (const VertexId v : all) {
+            if ((c.position(v).array() < centre.array()).all()) corner.push_back(v);
+        }
+        RandomStream random(RandomKey{11, 1, 0, 0});
+        for (std::size_t i = corner.size(); i > 1; --i)
+            std::swap(corner[i - 1], corner[random.index(i)]);
+        StarLoop loop(c);
+        std::vector<std::uint32_t> dates;
+        std::vector<std::uint8_t> tried;
+        for (const std::vector<VertexId>* list : {&all, &all, &std::as_const(corner)}) {
+            AfterNeighbours action{c, *list,
+                                   std::vector<std::uint32_t>(c.vertex_slots(), c.clock()),
+                                   std::vector<std::uint8_t>(list->size(), 0)};
+            loop.run(*list, workers, action);
+            tried.insert(tried.end(), action.tried.begin(), action.tried.end());
+        }
+        for (const VertexId v : all) dates.push_back(c.vertex_date(v));
+        return std::pair(tried, dates);
+    };
+    const auto one = run(nullptr);
+    for (int again = 0; again < 5; ++again) {
+        Workers workers(4);
+        const auto other = run(&workers);
+        CHECK(other.first == one.first);
+        CHECK(other.second == one.second);
     }
 }
 
