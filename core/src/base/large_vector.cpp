@@ -10,16 +10,16 @@ namespace dsc {
 namespace {
 
 std::size_t whole_pages(std::size_t bytes) {
-    if (bytes > std::numeric_limits<std::size_t>::max() - 2 * large_page)
-        throw std::bad_array_new_length();
     return (bytes + large_page - 1) / large_page * large_page;
 }
 
 }  // namespace
 
-// The system's own memory and not the heap's: aligned blocks would leave gaps there, and a freed
-// block goes back to the system at once.
+// The memory comes from the system and not from the heap. Aligned blocks would leave gaps in the
+// heap, and a freed block goes back to the system at once.
 void* allocate_large_pages(std::size_t bytes) {
+    if (bytes > std::numeric_limits<std::size_t>::max() - 2 * large_page)
+        throw std::bad_array_new_length();
     const std::size_t whole = whole_pages(bytes), more = whole + large_page;
     void* const mapped =
         mmap(nullptr, more, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -35,7 +35,7 @@ void* allocate_large_pages(std::size_t bytes) {
 }
 
 void free_large_pages(void* memory, std::size_t bytes) noexcept {
-    munmap(memory, (bytes + large_page - 1) / large_page * large_page);
+    munmap(memory, whole_pages(bytes));
 }
 
 }  // namespace dsc

@@ -316,7 +316,7 @@ Outcome collapse_as_chosen(Workbench& bench, const CollapseChoice& choice) {
     const auto& [a, b, best, interface_edge, a_moves, b_moves, old, must_exceed] = choice;
     const mesh::Complex& c = bench.complex;
     Collapse collapse(bench, a, b, interface_edge);
-    collapse.walk();
+    collapse.walk();  // also if another bench has chosen
     collapse.prefetch();
     const Outcome result = finish(bench, collapse, best, interface_edge, must_exceed, old);
     if (result != Refusal::bound || !interface_edge || !bench.limits.keeps_creases()) return result;

@@ -36,9 +36,13 @@ bool Destinations::moves(VertexId v) {
     return entry != nullptr && entry->birth == complex_.birth(v);
 }
 
-void Destinations::send(VertexId v, const Vec3& destination) {
+void Destinations::make_room() {
     if (entry_of_vertex_.size() < complex_.vertex_slots())
         entry_of_vertex_.resize(complex_.vertex_slots(), mesh::none);
+}
+
+void Destinations::send(VertexId v, const Vec3& destination) {
+    make_room();
     Entry* entry = entry_of(v);
     if (entry == nullptr) {
         entry_of_vertex_[v] = static_cast<std::uint32_t>(entries_.size());
@@ -68,48 +72,46 @@ Destinations::Sent Destinations::send(std::span<const VertexId> vertices,
                                       std::span<const Vec3> displacements, const Box3& inside,
                                       Workers* workers) {
     constexpr std::size_t block = 4096, ahead = 16;  // vertices
-    if (entry_of_vertex_.size() < complex_.vertex_slots())
-        entry_of_vertex_.resize(complex_.vertex_slots(), mesh::none);
+    make_room();
     // In this order, so that a vertex without displacement is not even looked at.
     const auto goes = [&](std::size_t i) {
         return !displacements[i].isZero(0.0) && complex_.movable(vertices[i]);
     };
-    // How many come before each block.
-    sent_.assign((vertices.size() + block - 1) / block, {});
+    sent_before_.assign(block_count(vertices.size(), block), 0);
     for_blocks(workers, vertices.size(), block, [&](std::size_t begin, std::size_t end) {
         std::uint64_t requested = 0;
         for (std::size_t i = begin; i < end; ++i) {
             if (i + ahead < end) prefetch(vertices[i + ahead]);
             requested += goes(i) ? 1 : 0;
         }
-        sent_[begin / block].requested = requested;
+        sent_before_[begin / block] = requested;
     });
     std::uint64_t count = 0;
-    for (Sent& sent : sent_) count += std::exchange(sent.requested, count);
+    for (std::uint64_t& before : sent_before_) count += std::exchange(before, count);
     entries_.resize(count);
     active_.resize(count);
     if (count == 0) return {};
+    std::atomic<std::uint64_t> clamped{0};
     for_blocks(workers, vertices.size(), block, [&](std::size_t begin, std::size_t end) {
         const std::size_t b = begin / block;
-        Sent& sent = sent_[b];
-        auto at = static_cast<std::uint32_t>(sent.requested);
-        const std::uint64_t last = b + 1 < sent_.size() ? sent_[b + 1].requested : count;
+        auto at = static_cast<std::uint32_t>(sent_before_[b]);
+        const std::uint64_t last = b + 1 < sent_before_.size() ? sent_before_[b + 1] : count;
+        std::uint64_t outside = 0;
         for (std::size_t i = begin; at < last; ++i) {
             if (i + ahead < end) complex_.prefetch_birth(vertices[i + ahead]);
             if (!goes(i)) continue;
             const VertexId v = vertices[i];
             const Vec3 wanted = complex_.position(v) + displacements[i];
             const Vec3 place = wanted.cwiseMax(inside.low).cwiseMin(inside.high);
-            sent.clamped += place != wanted ? 1 : 0;
+            outside += place != wanted ? 1 : 0;
             entries_[at] = {place, v, complex_.birth(v), 0, 0};
             active_[at] = v;
             std::atomic_ref(entry_of_vertex_[v]).store(at++, std::memory_order_relaxed);
         }
+        clamped.fetch_add(outside, std::memory_order_relaxed);
     });
     find_double(workers);
-    Sent all{count, 0};
-    for (const Sent& sent : sent_) all.clamped += sent.clamped;
-    return all;
+    return {count, clamped};
 }
 
 void Destinations::on_split(VertexId vertex, VertexId a, VertexId b, double s) {

@@ -29,12 +29,15 @@ public:
 
     /// Begins a step: no vertex moves. [step]
     void clear();
+    /// How many vertices got a destination.
     struct Sent {
         std::uint64_t requested = 0;  ///< movable vertices with a displacement
-        std::uint64_t clamped = 0;    ///< of these, how many wanted to leave the box
+        std::uint64_t clamped = 0;    ///< those of them whose wanted place is not in the box
     };
-    /// Sets the destinations of a step: the positions plus the displacements, but within `inside`.
-    /// Call it after clear(). `workers`: null for one thread. [step]
+    /// Gives each movable vertex that has a displacement its destination for this step: its
+    /// position plus the displacement. If that point is not in the box `inside`, the nearest point
+    /// of the box is the destination. Call it after clear(). `workers` is null for one thread.
+    /// [step]
     Sent send(std::span<const VertexId> vertices, std::span<const Vec3> displacements,
               const Box3& inside, Workers* workers);
     /// Sets the destination of v. [step]
@@ -77,6 +80,7 @@ private:
     bool moves(VertexId v);
     Vec3 destination_of(VertexId v) { return moves(v) ? entry_of(v)->place : complex_.position(v); }
     void drop_dead_and_double();
+    void make_room();
     void find_double(Workers* workers);
     void prefetch(VertexId v) const {
         complex_.prefetch_vertex(v);
@@ -98,7 +102,7 @@ private:
     std::vector<VertexId> blocked_;
     std::vector<VertexId> near_collapses_;
     LargeVector<std::uint8_t> fates_;
-    std::vector<Sent> sent_;  // per block of a step's vertices
+    std::vector<std::uint64_t> sent_before_;  // per block of a step's vertices: those before it
     std::uint32_t pass_ = 0;
     std::size_t tried_ = 0;
     std::size_t stranded_ = 0;

@@ -138,7 +138,7 @@ void StarLoop::fill_blocks(const BlockCounts& count, Workers& workers) {
     });
 }
 
-std::size_t StarLoop::parts() const { return (leaf_of_.size() + part - 1) / part; }
+std::size_t StarLoop::parts() const { return block_count(leaf_of_.size(), part); }
 
 // Makes room in the change list of the complex, and dates what the blocks have not dated yet.
 std::span<mesh::TetId> StarLoop::count_changes(Workers& workers) {

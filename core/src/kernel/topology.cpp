@@ -152,7 +152,7 @@ void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> cha
         std::span<const TetId> changed;
         std::uint64_t step;
     } const job{*this, changed, step};
-    const std::size_t count = (changed.size() + seed_block - 1) / seed_block;
+    const std::size_t count = block_count(changed.size(), seed_block);
     seed_blocks_.resize(std::max(seed_blocks_.size(), count));
     const std::span<SeedBlock> blocks(seed_blocks_.data(), count);
     for (SeedBlock& block : blocks) block.seeds.clear();

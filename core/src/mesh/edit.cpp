@@ -18,7 +18,7 @@ void Edit::clear() {
 
 namespace {
 
-// The three vertices of a face. Their order does not matter.
+// A key contains the three vertices of a face, in any order.
 using FaceKey = std::array<VertexId, 3>;
 
 // Whether two faces have the same vertices, without branches, which could not be predicted.

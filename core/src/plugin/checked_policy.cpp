@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <dsc/base/workers.hpp>
 #include <dsc/text/words.hpp>
 
 #include "plugin/checked.hpp"

@@ -2,6 +2,7 @@
 #include "initial_complex.hpp"
 
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 

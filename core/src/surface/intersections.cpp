@@ -233,7 +233,7 @@ IntersectionReport self_intersections(const TriangleMesh& mesh, std::size_t keep
     }
     const FaceTree tree(entries);
     constexpr std::size_t block = 2048;
-    std::vector<BlockResult> results((mesh.faces.size() + block - 1) / block);
+    std::vector<BlockResult> results(block_count(mesh.faces.size(), block));
     const auto search = [&](std::size_t begin, std::size_t end) {
         results[begin / block] = search_block(mesh, tree, flat, begin, end, keep);
     };

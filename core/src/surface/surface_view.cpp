@@ -130,7 +130,7 @@ void list_vertices(const mesh::Complex& c, SurfaceView& view, Workers* workers,
 
 // Joins the faces of the blocks, which hold those of `n` vertices.
 void list_faces(SurfaceView& view, std::size_t n, Workers* workers, ViewMemory::Arrays& arrays) {
-    const std::size_t used = (n + walk_block - 1) / walk_block;
+    const std::size_t used = block_count(n, walk_block);
     std::size_t count = 0;
     for (std::size_t b = 0; b < used; ++b) {
         arrays.blocks[b].first = count;
@@ -160,7 +160,7 @@ void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMe
     list_vertices(c, view, workers, arrays);
     const std::size_t n = view.vertex_ids.size();
     std::vector<ViewMemory::Arrays::Block>& blocks = arrays.blocks;
-    blocks.resize(std::max(blocks.size(), (n + walk_block - 1) / walk_block));
+    blocks.resize(std::max(blocks.size(), block_count(n, walk_block)));
     struct Job {
         const mesh::Complex& c;
         const SurfaceView& view;
@@ -238,8 +238,6 @@ void measure_faces(SurfaceView& view, std::size_t begin, std::size_t end) {
     }
 }
 
-std::size_t blocks_of(std::size_t count) { return (count + measure_block - 1) / measure_block; }
-
 // Positions, areas and normals of a connected view, and the faces round each vertex, if they are
 // not known.
 void measure(const mesh::Complex& c, SurfaceView& view, bool faces_known, Workers* workers) {
@@ -255,24 +253,27 @@ void measure(const mesh::Complex& c, SurfaceView& view, bool faces_known, Worker
     view.face_normals.resize(m);
     view.face_areas.resize(m);
     // One thread lists the faces of the vertices, as block 0.
-    for_blocks(workers, blocks_of(m) + 1, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t b = begin; b < end; ++b) {
-            if (b > 0)
-                measure_faces(view, (b - 1) * measure_block, std::min(b * measure_block, m));
-            else if (!faces_known)
-                list_faces_of_vertices(view);
-        }
-    });
+    for_blocks(
+        workers, block_count(m, measure_block) + 1, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t b = begin; b < end; ++b) {
+                if (b > 0)
+                    measure_faces(view, (b - 1) * measure_block, std::min(b * measure_block, m));
+                else if (!faces_known)
+                    list_faces_of_vertices(view);
+            }
+        });
     view.normals.resize(n);
     // The mean edge is a sum in the order of the faces, so one thread computes it, as block 0.
-    for_blocks(workers, blocks_of(n) + 1, 1, [&view, n](std::size_t begin, std::size_t end) {
-        for (std::size_t b = begin; b < end; ++b) {
-            if (b == 0)
-                view.mean_edge = mean_edge(view.positions, view.faces);
-            else
-                find_normals(view, (b - 1) * measure_block, std::min(b * measure_block, n));
-        }
-    });
+    for_blocks(workers, block_count(n, measure_block) + 1, 1,
+               [&view, n](std::size_t begin, std::size_t end) {
+                   for (std::size_t b = begin; b < end; ++b) {
+                       if (b == 0)
+                           view.mean_edge = mean_edge(view.positions, view.faces);
+                       else
+                           find_normals(view, (b - 1) * measure_block,
+                                        std::min(b * measure_block, n));
+                   }
+               });
 }
 
 }  // namespace

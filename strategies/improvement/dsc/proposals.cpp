@@ -197,7 +197,7 @@ void Proposals::find(const repair::RepairRound& round, Workers* workers) {
             job.proposals.find_in_block(job.round, job.start + begin, job.start + end,
                                         job.proposals.blocks_[begin / look_block]);
         });
-        join((count + look_block - 1) / look_block, workers);
+        join(block_count(count, look_block), workers);
     }
     for_blocks(workers, all_.free.size(), look_block, [this](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) first_[all_.free[i].vertex] = mesh::none;
@@ -289,7 +289,7 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
 // The list need not grow while it is written, which would copy it. Twice the room, because the next
 // rounds may write more, and memory that nobody has written to costs nothing.
 void Proposals::make_room(std::vector<Request>& out) const {
-    constexpr std::size_t most_per_tet = 11;  // of low quality
+    constexpr std::size_t most_per_tet = 3 + 4 + 4;  // of low quality, in the stages 2 and 3
     const std::size_t most = out.size() + all_.free_edges.size() + all_.free.size() +
                              most_per_tet * all_.low.size() + all_.short_edges.size() +
                              all_.long_edges.size() + all_.small.size();

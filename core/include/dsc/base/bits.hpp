@@ -1,5 +1,6 @@
 #pragma once
-// One bit per number, for sets that a loop in no order of memory asks.
+// A set of numbers with one bit per number. A loop that asks for numbers in no order needs only
+// little memory then.
 
 #include <algorithm>
 #include <cstddef>
@@ -8,8 +9,7 @@
 
 namespace dsc {
 
-/// A set of numbers below a bound. It asks the memory for an eighth of what a byte per number would
-/// need.
+/// A set of numbers below a bound.
 class Bits {
 public:
     /// Room for the numbers below `bound`; new ones are not in the set.

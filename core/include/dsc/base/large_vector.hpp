@@ -46,8 +46,8 @@ public:
         }
     }
 
-    /// A new element without a value, as after resize(): a type without initial values is not set.
-    /// So a list can be made longer without writing to it twice.
+    /// Makes an element for which no value is given, as resize() does. If its type has no initial
+    /// values, nothing is written, so that a list can be made longer without writing to it twice.
     template <class U>
     void construct(U* place) noexcept(std::is_nothrow_default_constructible_v<U>) {
         ::new (static_cast<void*>(place)) U;
@@ -59,12 +59,13 @@ public:
     }
 };
 
-/// Elements that resize() adds have no defined value if their type gives them none.
+/// An element that resize() adds has a defined value only if its type has initial values.
 template <class T>
 using LargeVector = std::vector<T, LargePages<T>>;
 
-/// Gives back the memory of an array that has room for far more than the `wanted` elements it will
-/// probably need, as after a first step that looked at everything. What it contains is lost then.
+/// Gives back the memory of an array that has room for three times the `wanted` elements or more,
+/// for example after a first step that looked at the whole mesh. The array is empty then, and has
+/// room for `wanted` elements.
 template <class T>
 void give_back_room(LargeVector<T>& list, std::size_t wanted) {
     if (list.capacity() * sizeof(T) < large_page || list.capacity() / 3 < wanted) return;

@@ -18,7 +18,7 @@ public:
     template <class T, class Allocator, class Keep, class Fetch>
     void keep_if(Workers* workers, std::vector<T, Allocator>& list, const Keep& keep,
                  const Fetch& fetch) {
-        kept_.resize((list.size() + block - 1) / block);
+        kept_.resize(block_count(list.size(), block));
         struct Job {
             T* list;
             std::size_t* kept;

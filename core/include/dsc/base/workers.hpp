@@ -30,6 +30,11 @@ private:
     std::unique_ptr<Pool> pool_;
 };
 
+/// The number of blocks that for_blocks() makes.
+constexpr std::size_t block_count(std::size_t count, std::size_t block) {
+    return (count + block - 1) / block;
+}
+
 /// The same loop with an optional pool: if `workers` is null, it runs on the calling thread.
 template <class Body>
 void for_blocks(Workers* workers, std::size_t count, std::size_t block, const Body& body) {
