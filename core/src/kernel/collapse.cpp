@@ -17,7 +17,7 @@ struct CollapseScratch {
     mesh::EdgeRing ring;
     End a, b;
     std::vector<TetId> survivors;  // the tets that the added ones come from
-    mesh::TetIndex places;         // of the survivors
+    mesh::TetIndex places;         // of the survivors, then of the tets that die
     std::vector<std::array<VertexId, 3>> fan, faces;
     std::vector<VertexId> concerned;  // vertices whose topology is tested
 
@@ -117,6 +117,7 @@ public:
         }
         own_.places.clear();
         for (const TetId t : own_.survivors) own_.places.insert(t);
+        for (const TetId t : edit.removed) own_.places.insert(t);
         edit.neighbours.resize(edit.added.size());
         for (std::size_t i = 0; i < edit.added.size(); ++i) {
             for (unsigned f = 0; f < 4; ++f)
@@ -190,25 +191,28 @@ public:
 private:
     End& end(VertexId v) const { return v == a_ ? own_.a : own_.b; }
 
-    // What lies across a face of a survivor after the collapse; `code` is what lies there now.
+    // What lies across a face of a survivor after the collapse; `code` is what lies there now. A
+    // tet outside the cavity is not read, because it is rarely in the caches.
     std::uint32_t beyond(std::uint32_t code, const Plan& plan) const {
-        if (code == mesh::none) return mesh::none;
-        const mesh::Tet& tet = c_.tet(mesh::neighbour_tet(code));
-        const bool dies = mesh::has_vertex(tet, plan.removed) && mesh::has_vertex(tet, plan.kept);
-        if (!dies) return code_after(code);
-        // The two faces of this tet that contain one end each become one face.
+        const std::uint32_t place = place_of(code);
+        if (place == mesh::TetIndex::absent) return code;
+        if (place < own_.survivors.size()) return added(place, code);
+        // The two faces of a dying tet that contain one end each become one face.
+        const TetId dying = mesh::neighbour_tet(code);
+        const mesh::Tet& tet = c_.tet(dying);
         const bool at_removed = tet.v[mesh::neighbour_face(code)] == plan.kept;
-        const unsigned other = mesh::index_of(tet, at_removed ? plan.removed : plan.kept);
-        return code_after(c_.across(mesh::neighbour_tet(code), other));
+        const std::uint32_t next =
+            c_.across(dying, mesh::index_of(tet, at_removed ? plan.removed : plan.kept));
+        const std::uint32_t next_place = place_of(next);
+        return next_place < own_.survivors.size() ? added(next_place, next) : next;
     }
-    // The code of the added tet, if the tet of this code is a survivor.
-    std::uint32_t code_after(std::uint32_t code) const {
-        const std::uint32_t place = code == mesh::none
-                                        ? mesh::TetIndex::absent
-                                        : own_.places.find(mesh::neighbour_tet(code));
-        return place == mesh::TetIndex::absent
-                   ? code
-                   : mesh::Edit::virtual_code | (4 * place + mesh::neighbour_face(code));
+    std::uint32_t place_of(std::uint32_t code) const {
+        return code == mesh::none ? mesh::TetIndex::absent
+                                  : own_.places.find(mesh::neighbour_tet(code));
+    }
+    // The code of the added tet that comes from a survivor.
+    static std::uint32_t added(std::uint32_t place, std::uint32_t code) {
+        return mesh::Edit::virtual_code | (4 * place + mesh::neighbour_face(code));
     }
 
     // Whether a tet of one end's star does not contain the other end.

@@ -141,7 +141,9 @@ struct Destinations::Pass {
     Entry& at(std::size_t i) const { return all.entries_[all.entry_of_vertex_[all.active_[i]]]; }
     void decide(std::size_t i, Fate fate) const { all.fates_[i] = fate; }
 
-    void prefetch(std::size_t i) const { prefetch_line(&at(i)); }
+    void prefetch(std::size_t, VertexId v) const {
+        prefetch_line(&all.entries_[all.entry_of_vertex_[v]]);
+    }
 
     bool ready(std::size_t i) const {
         const VertexId v = all.active_[i];

@@ -71,9 +71,9 @@ std::uint8_t StarLoop::leaf_of_new(mesh::VertexId v) {
     return leaf_at(complex_.position(v)) + 1;
 }
 
-// Writes date_of_vertex_ and leaf_of_, and gives vertices without a leaf the leaf of a neighbour.
-// False if a vertex occurs twice, and so has two turns. Inner vertices get a date, too: the planes
-// may be made anew after this, and then they need not be inner.
+// Writes the dates of turns and leaf_of_, and gives vertices without a leaf the leaf of a
+// neighbour. False if a vertex occurs twice, and so has two turns. Inner vertices get a date, too:
+// the planes may be made anew after this, and then they need not be inner.
 bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& workers) {
     leaf_of_.resize(vertices.size());
     std::atomic<bool> twice{false}, some_new{false};
@@ -81,16 +81,12 @@ bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& wor
         for (std::size_t turn = begin; turn < end; ++turn) {
             if (turn + ahead < end) {
                 complex_.prefetch_vertex(vertices[turn + ahead]);
-                prefetch_line_to_write(&date_of_vertex_[vertices[turn + ahead]]);
+                prefetch_line_to_write(&dates_[vertices[turn + ahead]]);
             }
-            const std::atomic_ref date(date_of_vertex_[vertices[turn]]);
+            const std::atomic_ref date(dates_[vertices[turn]].turn);
             if (date.exchange(date_of(turn), std::memory_order_relaxed) > start_)
                 twice.store(true, std::memory_order_relaxed);
-            const std::atomic_ref mark(complex_.mark(vertices[turn]));
-            const std::uint8_t known = mark.load(std::memory_order_relaxed);
-            leaf_of_[turn] = known & leaf_bits;
-            if ((known & listed_bit) == 0)
-                mark.store(known | listed_bit, std::memory_order_relaxed);
+            leaf_of_[turn] = mark_of(vertices[turn]) & leaf_bits;
             if (leaf_of_[turn] == no_leaf) some_new.store(true, std::memory_order_relaxed);
         }
     });
@@ -103,7 +99,7 @@ void StarLoop::find_new_leaves(std::span<const mesh::VertexId> vertices) {
     for (std::size_t turn = 0; turn < vertices.size(); ++turn) {
         if (leaf_of_[turn] != no_leaf) continue;
         leaf_of_[turn] = leaf_of_new(vertices[turn]);
-        complex_.mark(vertices[turn]) = leaf_of_[turn] | listed_bit;
+        complex_.mark(vertices[turn]) = leaf_of_[turn];
     }
 }
 
@@ -127,15 +123,43 @@ StarLoop::BlockCounts StarLoop::count_items(Workers& workers) {
 }
 
 // The items of the blocks, in the order of their turns.
-void StarLoop::fill_blocks(const BlockCounts& count, Workers& workers) {
+void StarLoop::fill_blocks(std::span<const mesh::VertexId> vertices, const BlockCounts& count,
+                           Workers& workers) {
     for (std::size_t b = 0; b < most_blocks; ++b) blocks_[b].items.resize(count[b]);
     workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
         BlockCounts at = items_before_[begin / part];
         for (std::size_t turn = begin; turn < end; ++turn) {
             const std::size_t b = block_of(leaf_of_[turn]);
-            blocks_[b].items[at[b]++] = {static_cast<std::uint32_t>(turn), 0};
+            blocks_[b].items[at[b]++] = {vertices[turn], static_cast<std::uint32_t>(turn), 0};
         }
     });
+}
+
+// A block gives dates to its own vertices only. Those of other blocks get the date at their turn,
+// or after the loop.
+void StarLoop::date_star(Block& block, mesh::VertexId v, std::uint32_t date) {
+    const std::uint8_t mark = mark_of(v);
+    if ((mark & inner_bit) != 0) {
+        complex_.date_move(v, block.scratch.star, date, block.changes,
+                           [](mesh::VertexId) { return true; });
+        return;
+    }
+    const std::uint8_t own = block_of(mark);
+    complex_.date_move(v, block.scratch.star, date, block.changes, [&](mesh::VertexId w) {
+        if (block_of(mark_of(w)) == own) return true;
+        raise_other_date(block, w, date);
+        return false;
+    });
+}
+
+void StarLoop::raise_other_date(Block& block, mesh::VertexId w, std::uint32_t date) {
+    const std::atomic_ref latest(dates_[w].other);
+    std::uint32_t known = latest.load(std::memory_order_relaxed);
+    while (known < date) {
+        if (!latest.compare_exchange_weak(known, date, std::memory_order_relaxed)) continue;
+        if (known <= start_) block.dated.push_back(w);
+        return;
+    }
 }
 
 std::size_t StarLoop::parts() const { return block_count(leaf_of_.size(), part); }
@@ -153,7 +177,7 @@ std::span<mesh::TetId> StarLoop::count_changes(Workers& workers) {
     });
     workers.for_blocks(most_blocks, 1, [this](std::size_t begin, std::size_t end) {
         for (const Block& block : std::span(blocks_).subspan(begin, end - begin)) {
-            for (const Date& date : block.dates) complex_.raise_date(date.vertex, date.date);
+            for (const mesh::VertexId v : block.dated) complex_.raise_date(v, other_date(v));
         }
     });
     listed_before_.clear();
@@ -202,14 +226,12 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     unsigned levels = 1;
     while (levels < most_levels && vertices.size() >> (levels + 1) >= least_block) ++levels;
     coarser_ = most_levels - levels;
-    if (date_of_vertex_.size() < complex_.vertex_slots()) {
-        date_of_vertex_.resize(complex_.vertex_slots(), 0);
-    }
+    if (dates_.size() < complex_.vertex_slots()) dates_.resize(complex_.vertex_slots());
     complex_.take_reshaped(reshaped_);
     workers.for_blocks(reshaped_.size(), part, [this](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (i + ahead < end) complex_.prefetch_vertex(reshaped_[i + ahead]);
-            complex_.mark(reshaped_[i]) &= leaf_bits | listed_bit;
+            complex_.mark(reshaped_[i]) &= leaf_bits;
         }
     });
     const bool is_new = loops_++ % most_loops == 0;
@@ -222,15 +244,16 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
         find_new_leaves(vertices);
         count = count_items(workers);
     }
-    fill_blocks(count, workers);
+    fill_blocks(vertices, count, workers);
     for (Block& block : blocks_) {
         block.changes.changed.clear();
         block.changes.watched.clear();
-        block.dates.clear();
+        block.dated.clear();
         block.next = 0;
         block.prepared = false;
         block.waits_for = no_wait;
-        block.turn = block.items.empty() ? no_turn : block.items.front().turn;
+        block.seen = {};
+        block.publish_turn();
     }
     return true;
 }

@@ -42,7 +42,8 @@ public:
     explicit StarLoop(mesh::Complex& complex) : complex_(complex) {}
 
     /// For each vertices[i], which must be alive:
-    /// - action.prefetch(i): asks the memory for what ready(i) will read [parallel]
+    /// - action.prefetch(i, v): asks the memory for what ready(i) will read; v is vertices[i]
+    ///   [parallel]
     /// - action.ready(i): false if there is nothing to try [parallel]
     /// - action.attempt(i, scratch, date): scratch.star is filled; date is the time of its turn;
     ///   true if the vertex moves to scratch.place, with scratch.qualities [parallel]
@@ -54,10 +55,11 @@ public:
     void run(std::span<const mesh::VertexId> vertices, Workers* workers, Action& action) {
         start_ = complex_.clock();
         if (workers == nullptr || workers->threads() < 2 || !divide(vertices, *workers)) {
+            const auto item = [&](std::size_t i) {
+                return Item{vertices[i], static_cast<std::uint32_t>(i), 0};
+            };
             for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-                prefetch(
-                    vertices, action, i, vertices.size(), [](std::size_t at) { return at; },
-                    blocks_.front().scratch.walk);
+                prefetch(action, i, vertices.size(), item, blocks_.front().scratch.walk);
                 run_one(vertices[i], i, action);
             }
             complex_.advance_clock(date_of(vertices.size()) - 1);
@@ -72,7 +74,7 @@ public:
             } const advance{*this, vertices.size()};
             const std::size_t threads = workers->threads();
             const auto body = [&](std::size_t thread, std::size_t) {
-                work(vertices, action, {thread, threads});
+                work(action, {thread, threads});
             };
             workers->for_blocks(threads, 1, body);
         }
@@ -83,43 +85,49 @@ private:
     static constexpr unsigned most_levels = 4;  // of the tree that divides space
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_turn = 0xffffffffU;
-    // The mark of a vertex contains the number of its leaf of the tree plus 1, a bit that is set if
-    // the vertex is known to be inner, and one that is set if it has been in a list. A vertex keeps
-    // its leaf and that bit until the planes are made again, and the bit of inner vertices until
-    // its shape changes.
-    static constexpr std::uint8_t no_leaf = 0, leaf_bits = 2 * most_blocks - 1, listed_bit = 0x40,
-                                  inner_bit = 0x80;
-    static_assert(leaf_bits < listed_bit);
+    // The mark of a vertex contains the number of its leaf of the tree plus 1, and a bit that is
+    // set if the vertex is known to be inner. A vertex keeps its leaf until the planes are made
+    // again, and the bit until its shape changes.
+    static constexpr std::uint8_t no_leaf = 0, leaf_bits = 2 * most_blocks - 1, inner_bit = 0x80;
+    static_assert(leaf_bits < inner_bit);
     static constexpr std::size_t next = 1, near = 3, far = 6, farther = 12;  // how far ahead the
                                                                              // memory is asked for
                                                                              // data
 
-    // A vertex at its turn.
     struct Item {
+        mesh::VertexId vertex;
         std::uint32_t turn;
         std::uint32_t changes;  // how many tets its move put on the list of the block
     };
 
-    struct Date {
-        mesh::VertexId vertex;
-        std::uint32_t date;
+    // Dates of a vertex that are not after the start of the loop do not count.
+    struct Dates {
+        std::uint32_t turn = 0;   // of its turn, if it is in the list
+        std::uint32_t other = 0;  // of the latest move of a neighbour in another block
     };
 
-    // On cache lines of its own. What a thread finds out about the items lies here, too, so that
-    // two threads do not write to one line.
+    // What all threads read, and what the thread that has the block writes at every vertex, are on
+    // cache lines of their own.
     struct alignas(64) Block {
-        std::atomic<std::uint32_t> turn{0};  // of the next item; no_turn after the last one
+        // All items before this turn have been processed; no_turn after the last one.
+        std::atomic<std::uint32_t> turn{0};
         std::atomic<bool> taken{false};
         std::atomic<std::uint64_t> waits_for{no_wait};  // wait_for()
-        std::size_t next = 0;                           // item
-        bool prepared = false;      // scratch has the star and the neighbours of the next
-        LargeVector<Item> items;    // in the order of their turns
-        mesh::ChangeLists changes;  // by the moves, in their order
-        std::vector<Date> dates;    // that vertices of other blocks get after the loop
+
+        alignas(64) std::size_t next = 0;  // item
+        bool prepared = false;             // scratch has the star and the neighbours of the next
+        LargeVector<Item> items;           // in the order of their turns
+        std::array<std::uint32_t, most_blocks> seen{};  // turns of the blocks, when last read
+        mesh::ChangeLists changes;                      // by the moves, in their order
+        std::vector<mesh::VertexId> dated;  // vertices of other blocks whose Dates::other counts
+                                            // since a move here
         StarScratch scratch;
 
         bool take() { return !taken.exchange(true, std::memory_order_acquire); }
         void give_back() { taken.store(false, std::memory_order_release); }
+        void publish_turn() {
+            turn.store(next < items.size() ? items[next].turn : no_turn, std::memory_order_release);
+        }
     };
 
     // The next item of a block waits until another block is past this turn. Turns only grow, so a
@@ -155,7 +163,8 @@ private:
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
     void find_new_leaves(std::span<const mesh::VertexId> vertices);
     BlockCounts count_items(Workers& workers);
-    void fill_blocks(const BlockCounts& count, Workers& workers);
+    void fill_blocks(std::span<const mesh::VertexId> vertices, const BlockCounts& count,
+                     Workers& workers);
     std::uint8_t leaf_of_new(mesh::VertexId v);
     bool take_turns(std::span<const mesh::VertexId> vertices, Workers& workers);
     bool is_balanced(const BlockCounts& count) const;
@@ -194,13 +203,14 @@ private:
             inner = false;
             const std::uint8_t other = block_of(leaf);
             if (other == own_block) continue;
-            const std::uint32_t date = date_of_vertex_[w];
+            const std::uint32_t date = dates_[w].turn;
             if (date <= start_ || date >= date_of(turn)) continue;
             const std::uint32_t earlier = date - date_of(0);
-            if (blocks_[other].turn.load(std::memory_order_acquire) <= earlier) {
-                block.waits_for.store(wait_for(other, earlier), std::memory_order_relaxed);
-                return false;
-            }
+            if (block.seen[other] > earlier) continue;
+            block.seen[other] = blocks_[other].turn.load(std::memory_order_acquire);
+            if (block.seen[other] > earlier) continue;
+            block.waits_for.store(wait_for(other, earlier), std::memory_order_relaxed);
+            return false;
         }
         if (inner) {
             std::atomic_ref(complex_.mark(v))
@@ -209,33 +219,35 @@ private:
         return true;
     }
 
-    // `turn(i)` is the i-th of `count` turns.
-    template <class Action, class Turn>
-    void prefetch(std::span<const mesh::VertexId> vertices, const Action& action, std::size_t i,
-                  std::size_t count, const Turn& turn, mesh::StarWalk& walk) const {
+    // `item(i)` is the i-th of `count` items.
+    template <class Action, class ItemAt>
+    void prefetch(const Action& action, std::size_t i, std::size_t count, const ItemAt& item,
+                  mesh::StarWalk& walk) const {
         if (!complex_.exceeds_caches()) return;
         if (i + farther < count) {
-            const std::size_t at = turn(i + farther);
-            complex_.prefetch_star_entry(vertices[at]);
-            complex_.prefetch_vertex(vertices[at]);
-            action.prefetch(at);
+            const Item later = item(i + farther);
+            complex_.prefetch_star_entry(later.vertex);
+            complex_.prefetch_vertex(later.vertex);
+            action.prefetch(later.turn, later.vertex);
         }
-        if (i + far < count) complex_.prefetch_star(vertices[turn(i + far)]);
-        if (i + near < count) complex_.prefetch_star_tets(vertices[turn(i + near)]);
+        if (i + far < count) complex_.prefetch_star(item(i + far).vertex);
+        if (i + near < count) complex_.prefetch_star_tets(item(i + near).vertex);
         // The connectivity stays as it is, so a star can be found ahead of its turn.
         if (i + next < count) {
-            if (const mesh::VertexId v = vertices[turn(i + next)]; !complex_.knows_star(v))
+            if (const mesh::VertexId v = item(i + next).vertex; !complex_.knows_star(v))
                 complex_.cached_star(v, walk);
         }
     }
 
     // Asks the memory for the dates that is_free() will read.
-    void prefetch_dates(std::span<const mesh::VertexId> vertices, Block& block) {
+    void prefetch_dates(Block& block) {
         if (!complex_.exceeds_caches() || block.next + near >= block.items.size()) return;
-        const mesh::VertexId v = vertices[block.items[block.next + near].turn];
-        if (is_inner(v) || !complex_.knows_star(v)) return;
+        const mesh::VertexId v = block.items[block.next + near].vertex;
+        if (is_inner(v)) return;
+        prefetch_line(&dates_[v]);
+        if (!complex_.knows_star(v)) return;
         for (const mesh::VertexId w : complex_.cached_star(v, block.scratch.walk).neighbours)
-            prefetch_line(&date_of_vertex_[w]);
+            prefetch_line(&dates_[w]);
     }
 
     template <class Action>
@@ -254,7 +266,7 @@ private:
     // Until all items have been processed. The earliest of the items that are left can always be
     // processed, so threads do not wait for each other without end, and one thread is enough.
     template <class Action>
-    void work(std::span<const mesh::VertexId> vertices, Action& action, const Thread& thread) {
+    void work(Action& action, const Thread& thread) {
         Offer offer;
         const auto found = [&] {
             offer = farthest_behind(thread);
@@ -264,41 +276,43 @@ private:
             while (!spin_until(found)) std::this_thread::yield();
             if (offer.finished) return;
             Block& block = blocks_[offer.block];
-            if (block.take()) run_block(block, vertices, action);
+            if (block.take()) run_block(block, action);
         }
     }
 
     // Runs a taken block as far as it goes and gives it back.
     template <class Action>
-    void run_block(Block& block, std::span<const mesh::VertexId> vertices, Action& action) {
+    void run_block(Block& block, Action& action) {
         // An exception ends the block, so that nobody waits for it.
         struct Guard {
             Block& block;
             bool normal = false;
             ~Guard() {
-                if (!normal) block.turn.store(no_turn, std::memory_order_release);
+                if (!normal) block.next = block.items.size();
+                block.publish_turn();
                 block.give_back();
             }
         } guard{block};
-        while (block.turn.load(std::memory_order_relaxed) != no_turn) {
+        while (block.next < block.items.size()) {
             Item& item = block.items[block.next];
-            const mesh::VertexId v = vertices[item.turn];
+            const mesh::VertexId v = item.vertex;
             if (!block.prepared) {
                 prefetch(
-                    vertices, action, block.next, block.items.size(),
-                    [&](std::size_t at) { return block.items[at].turn; }, block.scratch.walk);
-                prefetch_dates(vertices, block);
+                    action, block.next, block.items.size(),
+                    [&](std::size_t i) { return block.items[i]; }, block.scratch.walk);
+                prefetch_dates(block);
             }
-            if (!is_inner(v)) {
+            const bool inner = is_inner(v);
+            if (!inner) {
                 prepare(block, v);
                 if (!is_free(block, v, item.turn)) break;
+                complex_.raise_date(v, other_date(v));
             }
-            run_next(block, v, item, action);
+            run_next(block, item, action);
             block.prepared = false;
             ++block.next;
-            block.turn.store(
-                block.next < block.items.size() ? block.items[block.next].turn : no_turn,
-                std::memory_order_release);
+            // Nobody waits for an inner vertex.
+            if (!inner) block.publish_turn();
         }
         guard.normal = true;
     }
@@ -338,7 +352,8 @@ private:
     void list_watched(std::size_t b, std::span<mesh::TetId> list) const;
 
     template <class Action>
-    void run_next(Block& block, mesh::VertexId v, Item& item, Action& action) {
+    void run_next(Block& block, Item& item, Action& action) {
+        const mesh::VertexId v = item.vertex;
         StarScratch& scratch = block.scratch;
         if (!action.ready(item.turn)) return;
         prepare(block, v);
@@ -349,35 +364,11 @@ private:
         item.changes = static_cast<std::uint32_t>(block.changes.changed.size() - before);
     }
 
-    // All neighbours of an inner vertex are in its leaf. Then one question is enough for each,
-    // which nearly always has the same answer.
-    void date_star(Block& block, mesh::VertexId v, std::uint32_t date) {
-        using enum mesh::Complex::Dating;
-        const std::uint8_t mark = mark_of(v);
-        if ((mark & inner_bit) != 0) {
-            complex_.date_move(v, block.scratch.star, date, block.changes, [&](mesh::VertexId w) {
-                return (mark_of(w) & (inner_bit | listed_bit)) == listed_bit ? together : alone;
-            });
-        } else {
-            complex_.date_move(v, block.scratch.star, date, block.changes,
-                               [&, own = block_of(mark)](mesh::VertexId w) {
-                                   return dating(block, own, w, date);
-                               });
-        }
-    }
-
-    // How vertex w, which has a leaf, gets the date of a move in block `own`. Nobody asks for the
-    // date of a vertex that was never in the list before the loop ends, so its own block dates it
-    // at once, and the others keep the date until then.
-    mesh::Complex::Dating dating(Block& block, std::uint8_t own, mesh::VertexId w,
-                                 std::uint32_t date) {
-        using enum mesh::Complex::Dating;
-        const std::uint8_t mark = mark_of(w);
-        if ((mark & inner_bit) != 0) return alone;
-        if ((mark & listed_bit) != 0) return together;
-        if (block_of(mark) == own) return alone;
-        block.dates.push_back({w, date});
-        return later;
+    void date_star(Block& block, mesh::VertexId v, std::uint32_t date);
+    void raise_other_date(Block& block, mesh::VertexId w, std::uint32_t date);
+    std::uint32_t other_date(mesh::VertexId v) {
+        const std::uint32_t date = std::atomic_ref(dates_[v].other).load(std::memory_order_relaxed);
+        return date > start_ ? date : 0;
     }
 
     mesh::Complex& complex_;
@@ -390,15 +381,14 @@ private:
     };
     std::array<Plane, most_blocks> planes_;  // of the tree; node i has the children 2 i and 2 i + 1
     std::vector<Vec3> samples_;
-    std::vector<std::uint32_t> date_of_vertex_;  // of its last turn; in the past if it is not in
-                                                 // the list
-    std::vector<mesh::VertexId> reshaped_;       // since the last division
-    LargeVector<std::uint8_t> leaf_of_;          // per turn
-    std::vector<BlockCounts> items_before_;      // per part of the list
-    std::vector<BlockCounts> changes_before_;    // the same for the changed tets
-    std::vector<std::size_t> listed_before_;     // their sum
-    BlockCounts watched_before_{};               // per block: watched tets of earlier blocks
-    std::uint32_t start_ = 0;                    // the change clock at the start
+    std::vector<Dates> dates_;                 // per vertex
+    std::vector<mesh::VertexId> reshaped_;     // since the last division
+    LargeVector<std::uint8_t> leaf_of_;        // per turn
+    std::vector<BlockCounts> items_before_;    // per part of the list
+    std::vector<BlockCounts> changes_before_;  // the same for the changed tets
+    std::vector<std::size_t> listed_before_;   // their sum
+    BlockCounts watched_before_{};             // per block: watched tets of earlier blocks
+    std::uint32_t start_ = 0;                  // the change clock at the start
 };
 
 }  // namespace dsc::kernel

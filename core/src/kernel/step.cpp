@@ -48,8 +48,8 @@ struct Deformer::State::Smoothing {
     StepReport& report;
 
     const repair::Request& request(std::size_t i) const { return state.requests[first + i]; }
-    void prefetch(std::size_t i) const {
-        state.bench.prefetch_memory(state.smoothed[i]);
+    void prefetch(std::size_t i, VertexId v) const {
+        state.bench.prefetch_memory(v);
         prefetch_line(&request(i));
     }
     bool decide(std::size_t i, Outcome outcome) const {

@@ -156,7 +156,7 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
         for (const TetId t : star) touch(t);
         return;
     }
-    date_move(v, {star, neighbours}, clock_, lists_, [](VertexId) { return Dating::alone; });
+    date_move(v, {star, neighbours}, clock_, lists_, [](VertexId) { return true; });
 }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {

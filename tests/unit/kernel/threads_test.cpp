@@ -57,7 +57,7 @@ struct Shake {
     std::atomic<int>* busy;  // per tet: how many attempts hold it now
     std::atomic<int> collisions = 0;
 
-    void prefetch(std::size_t) const {}
+    void prefetch(std::size_t, mesh::VertexId) const {}
     bool ready(std::size_t i) const { return i % 3 != 0; }
     bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t) {
         ++attempts[i];
@@ -195,7 +195,7 @@ namespace {
 struct Throws {
     std::size_t at;
     std::vector<int> settled;
-    void prefetch(std::size_t) const {}
+    void prefetch(std::size_t, mesh::VertexId) const {}
     bool ready(std::size_t i) const {
         if (i == at) throw std::runtime_error("at its turn");
         return false;
@@ -211,7 +211,7 @@ struct AfterNeighbours {
     std::vector<std::uint32_t> known;  // per vertex: the clock at its last turn
     std::vector<std::uint8_t> tried;
 
-    void prefetch(std::size_t) const {}
+    void prefetch(std::size_t, mesh::VertexId) const {}
     bool ready(std::size_t i) const {
         return i % 7 == 0 || complex.vertex_date(vertices[i]) > known[vertices[i]];
     }

@@ -7,8 +7,8 @@
 // different labels, a face on the box if its tet's label is not 0. Three primitives change a
 // complex: replace(), move() and relabel(). Each keeps it valid.
 
+#include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -226,22 +226,14 @@ public:
     /// a time that is not before the last move [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
-    /// `dating(w)`: how v or a neighbour gets the date.
-    enum class Dating : std::uint8_t {
-        alone,     ///< no other thread can date a move round w meanwhile
-        together,  ///< another thread may do so
-        later  ///< the caller calls raise_date() after the loop; nobody asks for the date before
-    };
-    template <class HowToDate>
+    /// `dates_now(w)`, for v and each neighbour: false if another thread may date a move round w
+    /// meanwhile; then w keeps its date, and the caller calls raise_date().
+    template <class DatesNow>
     void date_move(VertexId v, const Star& star, std::uint32_t date, ChangeLists& changes,
-                   const HowToDate& dating);
-    /// The date of v becomes `date` if it is earlier. [parallel]
+                   const DatesNow& dates_now);
+    /// The date of v becomes `date` if it is earlier.
     void raise_date(VertexId v, std::uint32_t date) {
-        const std::atomic_ref<std::uint32_t> latest(vertices_[v].date);
-        std::uint32_t known = latest.load(std::memory_order_relaxed);
-        while (known < date &&
-               !latest.compare_exchange_weak(known, date, std::memory_order_relaxed)) {
-        }
+        vertices_[v].date = std::max(vertices_[v].date, date);
     }
     std::span<TetId> add_changes(std::size_t count) {
         lists_.changed.resize(lists_.changed.size() + count);
@@ -391,19 +383,15 @@ inline void Complex::note(std::span<const TetId> tets, std::uint32_t date, Chang
     lists.changed.resize(count);
 }
 
-template <class HowToDate>
+template <class DatesNow>
 void Complex::date_move(VertexId v, const Star& star, std::uint32_t date, ChangeLists& changes,
-                        const HowToDate& dating) {
+                        const DatesNow& dates_now) {
     note(star.tets, date, changes);
-    const auto raise = [this, date, &dating](VertexId w) {
-        switch (dating(w)) {
-            case Dating::alone: vertices_[w].date = date; break;
-            case Dating::together: raise_date(w, date); break;
-            case Dating::later: break;
-        }
+    const auto give_date = [this, date, &dates_now](VertexId w) {
+        if (dates_now(w)) vertices_[w].date = date;
     };
-    raise(v);
-    for (const VertexId w : star.neighbours) raise(w);
+    give_date(v);
+    for (const VertexId w : star.neighbours) give_date(w);
 }
 
 /// Mean length of the interface's edges; 0 without an interface. It does not depend on the slots.
