@@ -34,6 +34,14 @@ void* allocate_large_pages(std::size_t bytes) {
     return start + before;
 }
 
+void prefer_large_pages(void* memory, std::size_t bytes) noexcept {
+    const std::size_t before =
+        (large_page - reinterpret_cast<std::uintptr_t>(memory) % large_page) % large_page;
+    if (bytes < before + large_page) return;
+    const std::size_t whole = (bytes - before) / large_page * large_page;
+    static_cast<void>(madvise(static_cast<std::byte*>(memory) + before, whole, MADV_HUGEPAGE));
+}
+
 void free_large_pages(void* memory, std::size_t bytes) noexcept {
     munmap(memory, whole_pages(bytes));
 }

@@ -132,24 +132,23 @@ void Destinations::on_collapse(VertexId kept, VertexId removed, double s) {
 
 // What a pass does with active_[i].
 struct Destinations::Pass {
-    enum Fate : std::uint8_t { asleep, arrived, moved, stopped };
+    enum Note : std::uint8_t { asleep, arrived, moved, freed, stopped };
 
     Destinations& all;
     const Limits& limits;
     const PassOptions& options;
 
     Entry& at(std::size_t i) const { return all.entries_[all.entry_of_vertex_[all.active_[i]]]; }
-    void decide(std::size_t i, Fate fate) const { all.fates_[i] = fate; }
 
     void prefetch(std::size_t, VertexId v) const {
         prefetch_line(&all.entries_[all.entry_of_vertex_[v]]);
     }
 
-    bool ready(std::size_t i) const {
+    bool ready(std::size_t i, Note& fate) const {
         const VertexId v = all.active_[i];
         const Entry& entry = at(i);
         if (entry.blocked_at != 0 && !all.queues_.awake(v, entry.blocked_at)) {
-            decide(i, asleep);
+            fate = asleep;
             if (options.audit && all.complex_.vertex_date(v) > entry.blocked_at) {
                 throw GeometryError("kernel.audit", fmt::format("audit of vertex {}", v),
                                     "it is not tried again although its star changed; the queues "
@@ -158,21 +157,26 @@ struct Destinations::Pass {
             }
             return false;
         }
-        decide(i, arrived);
+        fate = arrived;
         return !has_arrived(all.complex_, limits, v, entry.place);
     }
 
-    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t) const {
-        const Motion motion = plan_move(all.complex_, limits, all.active_[i], at(i).place,
+    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t, Note& fate) const {
+        const Entry& entry = at(i);
+        const Motion motion = plan_move(all.complex_, limits, all.active_[i], entry.place,
                                         options.free_path, scratch);
-        decide(i, motion == Motion::arrived ? arrived : motion == Motion::moved ? moved : stopped);
+        fate = motion == Motion::arrived   ? arrived
+               : motion == Motion::blocked ? stopped
+               : entry.blocked_at != 0     ? freed
+                                           : moved;
         return motion != Motion::blocked;
     }
 
-    void settle(std::size_t i, std::uint32_t date) const {
-        const auto fate = static_cast<Fate>(all.fates_[i]);
+    void settle(std::size_t i, std::uint32_t date, Note fate) const {
+        all.fates_[i] = fate;
         if (fate == asleep) return;
         ++all.tried_;
+        if (fate == moved) return;  // its entry stays as it is
         Entry& entry = at(i);
         entry.blocked_at = fate == stopped ? date : 0;
         if (fate == arrived) entry.vertex = mesh::none;

@@ -138,13 +138,17 @@ TetId tet_of(const mesh::Complex& c, const Request& request) {
 
 }  // namespace
 
+bool foreseeable(const Request& request) {
+    return (request.operation == Operation::edge_removal ||
+            request.operation == Operation::edge_collapse) &&
+           request.vertices[0] == mesh::none && request.tet != mesh::none;
+}
+
 Foresight foresee(Workbench& bench, const Request& request) {
     const mesh::Complex& c = bench.complex;
     const TetId t = request.tet;
     const bool removes = request.operation == Operation::edge_removal;
-    if ((!removes && request.operation != Operation::edge_collapse) ||
-        request.vertices[0] != mesh::none || t == mesh::none || is_stale(c, request))
-        return {};
+    if (!foreseeable(request) || is_stale(c, request)) return {};
     auto edges = edges_of(c, t);
     if (!removes) sort_by_length(edges);
     Foresight known;

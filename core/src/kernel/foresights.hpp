@@ -2,6 +2,7 @@
 // Judges repair requests on several threads before their turn. A refusal that is certain then need
 // not be found again in the order of the list (method.md, section 10).
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -28,17 +29,26 @@ public:
 private:
     static constexpr std::size_t most = 1024, block = 32;  // requests that are judged together, and
                                                            // by one thread
-    bool holds(const repair::Request& request) const;
+    struct Judged {
+        std::size_t request;
+        Foresight known;
+        std::array<mesh::VertexId, 4> vertices;  // of the tet; only if something is known
+    };
+
+    bool holds(const Judged& judged) const;
     void look(std::size_t first);
+    void judge(Workbench& bench, Judged& judged) const;
     void prefetch_tets(std::size_t i, std::size_t end) const;
+    void prefetch_stars(std::size_t i) const;
 
     const Workbench& bench_;
     std::span<const repair::Request> requests_;
     Workers* workers_ = nullptr;
     std::vector<std::unique_ptr<Workbench>> judges_;  // per block
-    std::vector<Foresight> foresights_;               // from request first_ on
-    std::size_t first_ = 0;
-    std::uint32_t date_ = 0;  // the change clock when they were judged
+    std::vector<Judged> judged_;                      // in ascending order of the requests
+    std::size_t next_ = 0;                            // of judged_, that nobody has asked for
+    std::size_t end_ = 0;                             // of the requests that have been looked at
+    std::uint32_t date_ = 0;                          // the change clock when they were judged
 };
 
 }  // namespace dsc::kernel

@@ -84,9 +84,14 @@ struct Foresight {
     Refusal reason = Refusal::not_applicable;  ///< the strongest of the reasons
     /// What choose_collapse() finds for the next edge; without vertices if it was not asked.
     CollapseChoice choice{};
+
+    bool is_empty() const { return edges == 0 && choice.a == mesh::none; }
 };
-/// Tries the edges of an edge removal or collapse up to the first that may succeed. Nothing is
-/// certain of other requests. [parallel] with a bench for each thread.
+/// Whether foresee() may find something: the request is an edge removal or collapse that names only
+/// a tet.
+bool foreseeable(const repair::Request& request);
+/// Tries the edges of the tet up to the first that may succeed. [parallel] with a bench for each
+/// thread.
 Foresight foresee(Workbench& bench, const repair::Request& request);
 /// Executes a request and chooses the simplex if the request names none (section 6.1).
 Outcome execute(Workbench& bench, const repair::Request& request, const Foresight& known = {});

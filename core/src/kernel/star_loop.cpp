@@ -3,6 +3,7 @@
 #include "kernel/star_loop.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -12,17 +13,12 @@
 namespace dsc::kernel {
 namespace {
 
-constexpr std::size_t least_block = 256;  // items, on average
+constexpr unsigned most_levels = std::bit_width(StarBlock::most) - 1;  // of the tree
+constexpr std::size_t least_block = 256;                               // items, on average
 constexpr std::size_t most_samples = 1024;
 constexpr unsigned most_loops = 64;  // with the same planes, because vertices move on
 constexpr std::size_t part = 4096;   // of the list, in items
 constexpr std::size_t ahead = 16;    // how many items ahead the memory is asked for data
-
-// Replaces the counts of a part by those before it.
-template <class Counts>
-void add_up(Counts& count, Counts& total) {
-    for (std::size_t i = 0; i < count.size(); ++i) total[i] += std::exchange(count[i], total[i]);
-}
 
 }  // namespace
 
@@ -71,68 +67,69 @@ std::uint8_t StarLoop::leaf_of_new(mesh::VertexId v) {
     return leaf_at(complex_.position(v)) + 1;
 }
 
-// Writes the dates of turns and leaf_of_, and gives vertices without a leaf the leaf of a
-// neighbour. False if a vertex occurs twice, and so has two turns. Inner vertices get a date, too:
-// the planes may be made anew after this, and then they need not be inner.
-bool StarLoop::take_turns(std::span<const mesh::VertexId> vertices, Workers& workers) {
-    leaf_of_.resize(vertices.size());
-    std::atomic<bool> twice{false}, some_new{false};
+// Writes marks_, and gives vertices without a leaf the leaf of a neighbour.
+void StarLoop::take_marks(std::span<const mesh::VertexId> vertices, Workers& workers) {
+    marks_.resize(vertices.size());
+    std::atomic<bool> some_new{false};
     workers.for_blocks(vertices.size(), part, [&](std::size_t begin, std::size_t end) {
         for (std::size_t turn = begin; turn < end; ++turn) {
-            if (turn + ahead < end) {
-                complex_.prefetch_vertex(vertices[turn + ahead]);
-                prefetch_line_to_write(&dates_[vertices[turn + ahead]]);
-            }
-            const std::atomic_ref date(dates_[vertices[turn]].turn);
-            if (date.exchange(date_of(turn), std::memory_order_relaxed) > start_)
-                twice.store(true, std::memory_order_relaxed);
-            leaf_of_[turn] = mark_of(vertices[turn]) & leaf_bits;
-            if (leaf_of_[turn] == no_leaf) some_new.store(true, std::memory_order_relaxed);
+            if (turn + ahead < end) complex_.prefetch_vertex(vertices[turn + ahead]);
+            marks_[turn] = complex_.mark(vertices[turn]);
+            if ((marks_[turn] & leaf_bits) == no_leaf)
+                some_new.store(true, std::memory_order_relaxed);
         }
     });
-    if (twice) return false;
     if (some_new) find_new_leaves(vertices);
-    return true;
 }
 
 void StarLoop::find_new_leaves(std::span<const mesh::VertexId> vertices) {
     for (std::size_t turn = 0; turn < vertices.size(); ++turn) {
-        if (leaf_of_[turn] != no_leaf) continue;
-        leaf_of_[turn] = leaf_of_new(vertices[turn]);
-        complex_.mark(vertices[turn]) = leaf_of_[turn];
+        if ((marks_[turn] & leaf_bits) == no_leaf)
+            complex_.mark(vertices[turn]) = marks_[turn] = leaf_of_new(vertices[turn]);
     }
 }
 
 // Whether no block has many times the average number of items.
 bool StarLoop::is_balanced(const BlockCounts& count) const {
     return *std::max_element(count.begin(), count.end()) <=
-           3 * leaf_of_.size() / (most_blocks >> coarser_) + least_block;
+           3 * marks_.size() / blocks() + least_block;
 }
 
 // How many items the blocks will have; items_before_ receives how many come before each part.
 StarLoop::BlockCounts StarLoop::count_items(Workers& workers) {
     items_before_.assign(parts(), BlockCounts{});
-    workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
+    workers.for_blocks(marks_.size(), part, [&](std::size_t begin, std::size_t end) {
         BlockCounts count{};
-        for (std::size_t turn = begin; turn < end; ++turn) ++count[block_of(leaf_of_[turn])];
+        for (std::size_t turn = begin; turn < end; ++turn) ++count[block_of(marks_[turn])];
         items_before_[begin / part] = count;
     });
     BlockCounts total{};
-    for (BlockCounts& count : items_before_) add_up(count, total);
+    for (BlockCounts& count : items_before_) {
+        for (std::size_t b = 0; b < most_blocks; ++b) total[b] += std::exchange(count[b], total[b]);
+    }
     return total;
 }
 
-// The items of the blocks, in the order of their turns.
-void StarLoop::fill_blocks(std::span<const mesh::VertexId> vertices, const BlockCounts& count,
+// The items of the blocks in the order of their turns, and the dates of the turns that another
+// block may ask for. False if one of these vertices has two turns.
+bool StarLoop::fill_blocks(std::span<const mesh::VertexId> vertices, const BlockCounts& count,
                            Workers& workers) {
     for (std::size_t b = 0; b < most_blocks; ++b) blocks_[b].items.resize(count[b]);
-    workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
+    std::atomic<bool> twice{false};
+    workers.for_blocks(marks_.size(), part, [&](std::size_t begin, std::size_t end) {
         BlockCounts at = items_before_[begin / part];
         for (std::size_t turn = begin; turn < end; ++turn) {
-            const std::size_t b = block_of(leaf_of_[turn]);
-            blocks_[b].items[at[b]++] = {vertices[turn], static_cast<std::uint32_t>(turn), 0};
+            if (turn + ahead < end && (marks_[turn + ahead] & inner_bit) == 0)
+                prefetch_line_to_write(&dates_[vertices[turn + ahead]]);
+            const std::size_t b = block_of(marks_[turn]);
+            blocks_[b].items[at[b]++] = {vertices[turn], static_cast<std::uint32_t>(turn), 0, 0};
+            if ((marks_[turn] & inner_bit) != 0) continue;
+            const std::atomic_ref date(dates_[vertices[turn]].turn);
+            if (date.exchange(date_of(turn), std::memory_order_relaxed) > start_)
+                twice.store(true, std::memory_order_relaxed);
         }
     });
+    return !twice;
 }
 
 // A block gives dates to its own vertices only. Those of other blocks get the date at their turn,
@@ -162,62 +159,42 @@ void StarLoop::raise_other_date(Block& block, mesh::VertexId w, std::uint32_t da
     }
 }
 
-std::size_t StarLoop::parts() const { return block_count(leaf_of_.size(), part); }
+std::size_t StarLoop::parts() const { return block_count(marks_.size(), part); }
 
-// Makes room in the change list of the complex, and dates what the blocks have not dated yet.
-std::span<mesh::TetId> StarLoop::count_changes(Workers& workers) {
-    changes_before_.assign(parts(), BlockCounts{});
-    workers.for_blocks(leaf_of_.size(), part, [&](std::size_t begin, std::size_t end) {
-        BlockCounts at = items_before_[begin / part], count{};
-        for (std::size_t turn = begin; turn < end; ++turn) {
-            const std::size_t b = block_of(leaf_of_[turn]);
-            count[b] += blocks_[b].items[at[b]++].changes;
-        }
-        changes_before_[begin / part] = count;
-    });
-    workers.for_blocks(most_blocks, 1, [this](std::size_t begin, std::size_t end) {
-        for (const Block& block : std::span(blocks_).subspan(begin, end - begin)) {
-            for (const mesh::VertexId v : block.dated) complex_.raise_date(v, other_date(v));
-        }
-    });
-    listed_before_.clear();
-    std::size_t listed = 0;
-    BlockCounts total{};
-    for (BlockCounts& count : changes_before_) {
-        listed_before_.push_back(listed);
-        listed += std::accumulate(count.begin(), count.end(), std::size_t{0});
-        add_up(count, total);
+StarLoop::ChangeSpans StarLoop::make_room() {
+    std::size_t changed = 0, watched = 0;
+    for (const Block& block : blocks_) {
+        changed += block.changes.changed.size();
+        watched += block.changes.watched.size();
     }
-    return complex_.add_changes(listed);
+    return {complex_.add_changes(changed), complex_.add_watched(watched)};
 }
 
 // Writes the changes of the blocks in a part of the turns, in their order.
 void StarLoop::list_changes(std::size_t p, std::span<mesh::TetId> list) const {
-    BlockCounts item = items_before_[p], change = changes_before_[p];
-    mesh::TetId* to = list.data() + listed_before_[p];
-    const std::size_t end = std::min((p + 1) * part, leaf_of_.size());
+    BlockCounts item = items_before_[p], change{};
+    for (std::size_t b = 0; b < most_blocks; ++b)
+        change[b] = item[b] == 0 ? 0 : blocks_[b].items[item[b] - 1].changes_end;
+    mesh::TetId* to = list.data() + std::accumulate(change.begin(), change.end(), std::size_t{0});
+    const std::size_t end = std::min((p + 1) * part, marks_.size());
     for (std::size_t turn = p * part; turn < end; ++turn) {
-        const std::size_t b = block_of(leaf_of_[turn]);
-        const std::size_t count = blocks_[b].items[item[b]++].changes;
-        to = std::copy_n(blocks_[b].changes.changed.data() + change[b], count, to);
-        change[b] += count;
+        const std::size_t b = block_of(marks_[turn]);
+        const std::size_t to_end = blocks_[b].items[item[b]++].changes_end;
+        to = std::copy(blocks_[b].changes.changed.data() + change[b],
+                       blocks_[b].changes.changed.data() + to_end, to);
+        change[b] = to_end;
     }
 }
 
-// Makes room for the watched tets of the blocks, one block after the other.
-std::span<mesh::TetId> StarLoop::count_watched() {
-    std::size_t count = 0;
-    for (std::size_t b = 0; b < most_blocks; ++b) {
-        watched_before_[b] = count;
-        count += blocks_[b].changes.watched.size();
-    }
-    return complex_.add_watched(count);
-}
-
-void StarLoop::list_watched(std::size_t b, std::span<mesh::TetId> list) const {
-    const LargeVector<mesh::TetId>& watched = blocks_[b].changes.watched;
-    std::copy(watched.begin(), watched.end(),
-              list.begin() + static_cast<std::ptrdiff_t>(watched_before_[b]));
+// Lists the watched tets of a block after those of the earlier blocks, and dates what it has not
+// dated yet.
+void StarLoop::finish_block(std::size_t b, std::span<mesh::TetId> watched) {
+    std::size_t before = 0;
+    for (std::size_t earlier = 0; earlier < b; ++earlier)
+        before += blocks_[earlier].changes.watched.size();
+    const LargeVector<mesh::TetId>& list = blocks_[b].changes.watched;
+    std::copy(list.begin(), list.end(), watched.begin() + static_cast<std::ptrdiff_t>(before));
+    for (const mesh::VertexId v : blocks_[b].dated) complex_.raise_date(v, other_date(v));
 }
 
 // False if the items cannot be divided.
@@ -236,47 +213,38 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices, Workers& workers
     });
     const bool is_new = loops_++ % most_loops == 0;
     if (is_new) make_planes(vertices);
-    if (!take_turns(vertices, workers)) return false;
+    take_marks(vertices, workers);
     BlockCounts count = count_items(workers);
     if (!is_new && !is_balanced(count)) {
         make_planes(vertices);
-        std::fill(leaf_of_.begin(), leaf_of_.end(), no_leaf);
+        std::fill(marks_.begin(), marks_.end(), no_leaf);
         find_new_leaves(vertices);
         count = count_items(workers);
     }
-    fill_blocks(vertices, count, workers);
-    for (Block& block : blocks_) {
-        block.changes.changed.clear();
-        block.changes.watched.clear();
-        block.dated.clear();
-        block.next = 0;
-        block.prepared = false;
-        block.waits_for = no_wait;
-        block.seen = {};
-        block.publish_turn();
-    }
+    if (!fill_blocks(vertices, count, workers)) return false;
+    for (Block& block : blocks_) block.begin();
     return true;
 }
 
-StarLoop::Offer StarLoop::farthest_behind(const Thread& thread) const {
-    const std::size_t count = most_blocks >> coarser_;
-    std::array<std::uint32_t, most_blocks> turns;
-    for (std::size_t b = 0; b < count; ++b)
-        turns[b] = blocks_[b].turn.load(std::memory_order_acquire);
+// Whether a thread can continue with this block.
+bool StarLoop::offers(std::size_t block) const {
+    if (blocks_[block].turn.load(std::memory_order_relaxed) == no_turn ||
+        blocks_[block].taken.load(std::memory_order_relaxed))
+        return false;
+    const std::uint64_t wait = blocks_[block].waits_for.load(std::memory_order_relaxed);
+    return wait == no_wait ||
+           blocks_[wait & 0xffU].turn.load(std::memory_order_relaxed) > wait >> 8U;
+}
+
+StarLoop::Offer StarLoop::farthest_behind(const Range& range) const {
     Offer offer;
     std::uint32_t least = no_turn;
-    bool preferred = false;
-    for (std::size_t b = 0; b < count; ++b) {
-        if (turns[b] == no_turn) continue;
+    for (std::size_t b = range.begin; b < range.end; ++b) {
+        const std::uint32_t turn = blocks_[b].turn.load(std::memory_order_relaxed);
+        if (turn == no_turn) continue;
         offer.finished = false;
-        const bool prefers = thread.prefers(b, count);
-        if ((prefers == preferred ? turns[b] >= least : preferred) ||
-            blocks_[b].taken.load(std::memory_order_relaxed))
-            continue;
-        const std::uint64_t wait = blocks_[b].waits_for.load(std::memory_order_relaxed);
-        if (wait != no_wait && turns[wait & 0xffU] <= wait >> 8U) continue;
-        least = turns[b];
-        preferred = prefers;
+        if (turn >= least || !offers(b)) continue;
+        least = turn;
         offer.block = b;
     }
     return offer;

@@ -17,22 +17,12 @@
 #include <thread>
 #include <vector>
 
-#include <dsc/base/large_vector.hpp>
 #include <dsc/base/spin.hpp>
 #include <dsc/base/workers.hpp>
-#include <dsc/mesh/complex.hpp>
-#include <dsc/mesh/star_trial.hpp>
+
+#include "kernel/star_block.hpp"
 
 namespace dsc::kernel {
-
-/// The visit of one star, for one thread at a time.
-struct StarScratch {
-    mesh::Star star;
-    mesh::StarWalk walk;
-    Vec3 place = Vec3::Zero();     // the planned place of the vertex,
-    std::vector<float> qualities;  // and the qualities of the star there, in its order
-    mesh::StarCopy copy;           // for the trial of places
-};
 
 class StarLoop {
 public:
@@ -44,10 +34,13 @@ public:
     /// For each vertices[i], which must be alive:
     /// - action.prefetch(i, v): asks the memory for what ready(i) will read; v is vertices[i]
     ///   [parallel]
-    /// - action.ready(i): false if there is nothing to try [parallel]
-    /// - action.attempt(i, scratch, date): scratch.star is filled; date is the time of its turn;
-    ///   true if the vertex moves to scratch.place, with scratch.qualities [parallel]
-    /// - action.settle(i, date): in the order of the list [step]
+    /// - action.ready(i, note): false if there is nothing to try [parallel]
+    /// - action.attempt(i, scratch, date, note): scratch.star is filled; date is the time of its
+    ///   turn; true if the vertex moves to scratch.place, with scratch.qualities [parallel]
+    /// - action.settle(i, date, note): in the order of the list; dates of vertices may not be read
+    ///   [step]
+    /// `note`, of the enumeration Action::Note in one byte, tells settle(i) what the other two have
+    /// found. They need no list of their own, to whose lines both threads would write.
     /// The change clock advances by one per vertex, whether it moves or not.
     /// ready() and attempt() may read the star and the date of their vertex, and everything that
     /// neither place() nor settle() of other vertices writes.
@@ -56,7 +49,7 @@ public:
         start_ = complex_.clock();
         if (workers == nullptr || workers->threads() < 2 || !divide(vertices, *workers)) {
             const auto item = [&](std::size_t i) {
-                return Item{vertices[i], static_cast<std::uint32_t>(i), 0};
+                return Item{vertices[i], static_cast<std::uint32_t>(i), 0, 0};
             };
             for (std::uint32_t i = 0; i < vertices.size(); ++i) {
                 prefetch(action, i, vertices.size(), item, blocks_.front().scratch.walk);
@@ -72,9 +65,10 @@ public:
                 std::size_t turns;
                 ~Advance() { loop.complex_.advance_clock(loop.date_of(turns) - 1); }
             } const advance{*this, vertices.size()};
+            // A thread prefers the blocks in its part of space, whose data is near its core.
             const std::size_t threads = workers->threads();
             const auto body = [&](std::size_t thread, std::size_t) {
-                work(action, {thread, threads});
+                work(action, {thread * blocks() / threads, (thread + 1) * blocks() / threads});
             };
             workers->for_blocks(threads, 1, body);
         }
@@ -82,9 +76,11 @@ public:
     }
 
 private:
-    static constexpr unsigned most_levels = 4;  // of the tree that divides space
-    static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
-    static constexpr std::uint32_t no_turn = 0xffffffffU;
+    using Item = StarItem;
+    using Block = StarBlock;
+    static constexpr std::size_t most_blocks = Block::most;
+    static constexpr std::uint32_t no_turn = Block::no_turn;
+    static constexpr std::uint64_t no_wait = Block::no_wait;
     // The mark of a vertex contains the number of its leaf of the tree plus 1, and a bit that is
     // set if the vertex is known to be inner. A vertex keeps its leaf until the planes are made
     // again, and the bit until its shape changes.
@@ -94,82 +90,50 @@ private:
                                                                              // memory is asked for
                                                                              // data
 
-    struct Item {
-        mesh::VertexId vertex;
-        std::uint32_t turn;
-        std::uint32_t changes;  // how many tets its move put on the list of the block
-    };
-
     // Dates of a vertex that are not after the start of the loop do not count.
     struct Dates {
         std::uint32_t turn = 0;   // of its turn, if it is in the list
         std::uint32_t other = 0;  // of the latest move of a neighbour in another block
     };
 
-    // What all threads read, and what the thread that has the block writes at every vertex, are on
-    // cache lines of their own.
-    struct alignas(64) Block {
-        // All items before this turn have been processed; no_turn after the last one.
-        std::atomic<std::uint32_t> turn{0};
-        std::atomic<bool> taken{false};
-        std::atomic<std::uint64_t> waits_for{no_wait};  // wait_for()
-
-        alignas(64) std::size_t next = 0;  // item
-        bool prepared = false;             // scratch has the star and the neighbours of the next
-        LargeVector<Item> items;           // in the order of their turns
-        std::array<std::uint32_t, most_blocks> seen{};  // turns of the blocks, when last read
-        mesh::ChangeLists changes;                      // by the moves, in their order
-        std::vector<mesh::VertexId> dated;  // vertices of other blocks whose Dates::other counts
-                                            // since a move here
-        StarScratch scratch;
-
-        bool take() { return !taken.exchange(true, std::memory_order_acquire); }
-        void give_back() { taken.store(false, std::memory_order_release); }
-        void publish_turn() {
-            turn.store(next < items.size() ? items[next].turn : no_turn, std::memory_order_release);
-        }
-    };
-
-    // The next item of a block waits until another block is past this turn. Turns only grow, so a
-    // wait that has ended need not be removed.
-    static constexpr std::uint64_t no_wait = ~std::uint64_t{0};
-    static std::uint64_t wait_for(std::uint8_t block, std::uint32_t turn) {
-        return std::uint64_t{turn} << 8U | block;
-    }
-
-    // Of a part of the list: how many of its items are in each block, or how many tets these
-    // changed; or how many before the part.
+    // How many items of a part of the list are in each block, or how many before the part.
     using BlockCounts = std::array<std::size_t, most_blocks>;
 
-    // A thread prefers the blocks in its part of space, whose data is near its core.
-    struct Thread {
-        std::size_t number, of;
-        bool prefers(std::size_t block, std::size_t blocks) const {
-            return block * of / blocks == number;
-        }
+    // The room for the changes of this loop on the lists of the complex.
+    struct ChangeSpans {
+        std::span<mesh::TetId> changed, watched;
+    };
+
+    // Blocks that follow each other.
+    struct Range {
+        std::size_t begin, end;
+        bool contains(std::size_t block) const { return begin <= block && block < end; }
     };
 
     // What a thread that looks for work finds.
     struct Offer {
         std::size_t block = most_blocks;  // most_blocks: none that is not taken and does not wait
         bool finished = true;             // all items have been processed
+        bool none() const { return !finished && block == most_blocks; }
     };
 
     std::uint32_t date_of(std::size_t turn) const {
         return start_ + static_cast<std::uint32_t>(turn) + 1;
     }
+    std::size_t blocks() const { return most_blocks >> coarser_; }
     bool divide(std::span<const mesh::VertexId> vertices, Workers& workers);
     void make_planes(std::span<const mesh::VertexId> vertices);
     void split(unsigned node, unsigned level, std::span<Vec3> samples);
+    void take_marks(std::span<const mesh::VertexId> vertices, Workers& workers);
     void find_new_leaves(std::span<const mesh::VertexId> vertices);
     BlockCounts count_items(Workers& workers);
-    void fill_blocks(std::span<const mesh::VertexId> vertices, const BlockCounts& count,
+    bool fill_blocks(std::span<const mesh::VertexId> vertices, const BlockCounts& count,
                      Workers& workers);
     std::uint8_t leaf_of_new(mesh::VertexId v);
-    bool take_turns(std::span<const mesh::VertexId> vertices, Workers& workers);
     bool is_balanced(const BlockCounts& count) const;
     std::uint8_t leaf_at(const Vec3& place) const;
-    Offer farthest_behind(const Thread& thread) const;
+    bool offers(std::size_t block) const;
+    Offer farthest_behind(const Range& range) const;
 
     // While threads work, only leaf_in() and is_free() change marks.
     std::uint8_t mark_of(mesh::VertexId v) {
@@ -209,7 +173,7 @@ private:
             if (block.seen[other] > earlier) continue;
             block.seen[other] = blocks_[other].turn.load(std::memory_order_acquire);
             if (block.seen[other] > earlier) continue;
-            block.waits_for.store(wait_for(other, earlier), std::memory_order_relaxed);
+            block.wait_for(other, earlier);
             return false;
         }
         if (inner) {
@@ -253,36 +217,44 @@ private:
     template <class Action>
     void run_one(mesh::VertexId v, std::uint32_t i, Action& action) {
         StarScratch& scratch = blocks_.front().scratch;
-        const bool ready = action.ready(i);
+        typename Action::Note note{};
+        const bool ready = action.ready(i, note);
         complex_.advance_clock(date_of(i) - 1);
         if (ready) {
             scratch.star = complex_.cached_star(v, scratch.walk);
-            if (action.attempt(i, scratch, date_of(i)))
+            if (action.attempt(i, scratch, date_of(i), note))
                 complex_.move(v, scratch.place, scratch.star.tets, scratch.qualities);
         }
-        action.settle(i, date_of(i));
+        action.settle(i, date_of(i), note);
     }
 
     // Until all items have been processed. The earliest of the items that are left can always be
     // processed, so threads do not wait for each other without end, and one thread is enough.
     template <class Action>
-    void work(Action& action, const Thread& thread) {
+    void work(Action& action, const Range& preferred) {
+        std::size_t wanted = most_blocks;  // the block that the last one waits for
         Offer offer;
         const auto found = [&] {
-            offer = farthest_behind(thread);
-            return offer.finished || offer.block != most_blocks;
+            offer = farthest_behind(preferred);
+            if (offer.block == most_blocks) offer = farthest_behind({0, blocks()});
+            return !offer.none();
         };
         while (true) {
-            while (!spin_until(found)) std::this_thread::yield();
+            if (preferred.contains(wanted) && offers(wanted)) {
+                offer = {wanted, false};
+            } else {
+                while (!spin_until(found)) std::this_thread::yield();
+            }
             if (offer.finished) return;
             Block& block = blocks_[offer.block];
-            if (block.take()) run_block(block, action);
+            wanted = block.take() ? run_block(block, action) : most_blocks;
         }
     }
 
-    // Runs a taken block as far as it goes and gives it back.
+    // Runs a taken block as far as it goes and gives it back. Returns the block that it waits for;
+    // most_blocks if none.
     template <class Action>
-    void run_block(Block& block, Action& action) {
+    std::size_t run_block(Block& block, Action& action) {
         // An exception ends the block, so that nobody waits for it.
         struct Guard {
             Block& block;
@@ -305,16 +277,21 @@ private:
             const bool inner = is_inner(v);
             if (!inner) {
                 prepare(block, v);
-                if (!is_free(block, v, item.turn)) break;
+                if (!is_free(block, v, item.turn)) {
+                    guard.normal = true;
+                    return block.waits_for & 0xffU;
+                }
                 complex_.raise_date(v, other_date(v));
             }
-            run_next(block, item, action);
+            item.note = static_cast<std::uint8_t>(run_next(block, item, action));
+            item.changes_end = static_cast<std::uint32_t>(block.changes.changed.size());
             block.prepared = false;
             ++block.next;
             // Nobody waits for an inner vertex.
             if (!inner) block.publish_turn();
         }
         guard.normal = true;
+        return most_blocks;
     }
 
     void prepare(Block& block, mesh::VertexId v) {
@@ -326,42 +303,44 @@ private:
     // What follows in the order of the list.
     template <class Action>
     void settle(Action& action, Workers& workers) {
-        const std::span<mesh::TetId> list = count_changes(workers);
-        const std::span<mesh::TetId> watched = count_watched();
+        const ChangeSpans lists = make_room();
         // The books are kept by one thread, as job 0, while others go on.
         workers.for_blocks(1 + most_blocks + parts(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t job = begin; job < end; ++job) {
                 if (job == 0)
                     keep_books(action);
                 else if (job <= most_blocks)
-                    list_watched(job - 1, watched);
+                    finish_block(job - 1, lists.watched);
                 else
-                    list_changes(job - 1 - most_blocks, list);
+                    list_changes(job - 1 - most_blocks, lists.changed);
             }
         });
     }
     template <class Action>
     void keep_books(Action& action) {
-        for (std::uint32_t turn = 0; turn < leaf_of_.size(); ++turn)
-            action.settle(turn, date_of(turn));
+        BlockCounts at{};
+        for (std::uint32_t turn = 0; turn < marks_.size(); ++turn) {
+            const std::size_t b = block_of(marks_[turn]);
+            const auto note = static_cast<typename Action::Note>(blocks_[b].items[at[b]++].note);
+            action.settle(turn, date_of(turn), note);
+        }
     }
     std::size_t parts() const;
-    std::span<mesh::TetId> count_changes(Workers& workers);
+    ChangeSpans make_room();
     void list_changes(std::size_t p, std::span<mesh::TetId> list) const;
-    std::span<mesh::TetId> count_watched();
-    void list_watched(std::size_t b, std::span<mesh::TetId> list) const;
+    void finish_block(std::size_t b, std::span<mesh::TetId> watched);
 
     template <class Action>
-    void run_next(Block& block, Item& item, Action& action) {
+    typename Action::Note run_next(Block& block, const Item& item, Action& action) {
         const mesh::VertexId v = item.vertex;
         StarScratch& scratch = block.scratch;
-        if (!action.ready(item.turn)) return;
+        typename Action::Note note{};
+        if (!action.ready(item.turn, note)) return note;
         prepare(block, v);
-        if (!action.attempt(item.turn, scratch, date_of(item.turn))) return;
+        if (!action.attempt(item.turn, scratch, date_of(item.turn), note)) return note;
         complex_.place(v, scratch.place, scratch.star.tets, scratch.qualities);
-        const std::size_t before = block.changes.changed.size();
         date_star(block, v, date_of(item.turn));
-        item.changes = static_cast<std::uint32_t>(block.changes.changed.size() - before);
+        return note;
     }
 
     void date_star(Block& block, mesh::VertexId v, std::uint32_t date);
@@ -381,14 +360,11 @@ private:
     };
     std::array<Plane, most_blocks> planes_;  // of the tree; node i has the children 2 i and 2 i + 1
     std::vector<Vec3> samples_;
-    std::vector<Dates> dates_;                 // per vertex
-    std::vector<mesh::VertexId> reshaped_;     // since the last division
-    LargeVector<std::uint8_t> leaf_of_;        // per turn
-    std::vector<BlockCounts> items_before_;    // per part of the list
-    std::vector<BlockCounts> changes_before_;  // the same for the changed tets
-    std::vector<std::size_t> listed_before_;   // their sum
-    BlockCounts watched_before_{};             // per block: watched tets of earlier blocks
-    std::uint32_t start_ = 0;                  // the change clock at the start
+    std::vector<Dates> dates_;               // per vertex
+    std::vector<mesh::VertexId> reshaped_;   // since the last division
+    LargeVector<std::uint8_t> marks_;        // per turn
+    std::vector<BlockCounts> items_before_;  // per part of the list
+    std::uint32_t start_ = 0;                // the change clock at the start
 };
 
 }  // namespace dsc::kernel

@@ -43,6 +43,8 @@ void Deformer::State::record(std::uint32_t i, Outcome outcome, std::uint32_t dat
 
 // Consecutive requests that smooth different vertices may run in parallel.
 struct Deformer::State::Smoothing {
+    using Note = Refusal;
+
     State& state;
     std::uint32_t first;  // request of vertex 0
     StepReport& report;
@@ -52,14 +54,14 @@ struct Deformer::State::Smoothing {
         state.bench.prefetch_memory(v);
         prefetch_line(&request(i));
     }
-    bool decide(std::size_t i, Outcome outcome) const {
-        state.outcomes[first + i] = outcome;
+    static bool decide(Note& note, Outcome outcome) {
+        note = outcome.reason();
         return !outcome.refused();
     }
-    bool ready(std::size_t i) const {
-        return decide(i, may_smooth(state.bench, state.smoothed[i], request(i).accept_above));
+    bool ready(std::size_t i, Note& note) const {
+        return decide(note, may_smooth(state.bench, state.smoothed[i], request(i).accept_above));
     }
-    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t date) const {
+    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t date, Note& note) const {
         const VertexId v = state.smoothed[i];
         const float accept_above = request(i).accept_above;
         const Outcome outcome =
@@ -68,10 +70,10 @@ struct Deformer::State::Smoothing {
             state.bench.remember(v, Workbench::Smoother::laplacian, accept_above, outcome.reason(),
                                  date);
         }
-        return decide(i, outcome);
+        return decide(note, outcome);
     }
-    void settle(std::uint32_t i, std::uint32_t date) const {
-        state.record(first + i, state.outcomes[first + i], date, report);
+    void settle(std::uint32_t i, std::uint32_t date, Note note) const {
+        state.record(first + i, note, date, report);
     }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include <dsc/base/large_vector.hpp>
 #include <dsc/base/prefetch.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/tet_visit.hpp>
@@ -293,7 +294,9 @@ void Proposals::make_room(std::vector<Request>& out) const {
     const std::size_t most = out.size() + all_.free_edges.size() + all_.free.size() +
                              most_per_tet * all_.low.size() + all_.short_edges.size() +
                              all_.long_edges.size() + all_.small.size();
-    if (out.capacity() < most) out.reserve(2 * most);
+    if (out.capacity() >= most) return;
+    out.reserve(2 * most);
+    if (out.empty()) prefer_large_pages(out.data(), out.capacity() * sizeof(Request));
 }
 
 void Proposals::write(const repair::RepairRound& round, Workers* workers,
@@ -302,12 +305,22 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
     sort_out(round, workers);
     make_room(out);
     const double low = limits_.min_tet_quality, degenerate = limits_.degenerate_tet_quality;
+    // For each entry of a list; the memory is asked for the tets of later entries, and their
+    // vertices.
+    const auto visit = [&c](const auto& entries, const auto& each) {
+        constexpr std::size_t near = 8, far = 16;  // entries ahead
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            if (i + far < entries.size()) c.prefetch(entries[i + far].tet);
+            if (i + near < entries.size()) c.prefetch_vertices(entries[i + near].tet);
+            each(entries[i]);
+        }
+    };
     // 0. Long edges ahead of the interface, longest first: the next stages smooth the new vertices.
-    for (const EdgeEntry& edge : all_.free_edges) {
+    visit(all_.free_edges, [&](const EdgeEntry& edge) {
         Request request = on_tet(c, edge.tet, Operation::edge_split, 2.0, 2.0);
         request.vertices = {edge.a, edge.b, mesh::none};
         out.push_back(request);
-    }
+    });
     // 1. Free vertices move to the mean of their neighbours.
     const std::size_t first = out.size();
     out.resize(first + all_.free.size());
@@ -322,7 +335,7 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
     });
     // 2. Bad tets, worst first: edges, interface diagonals, faces, then their free vertices one by
     // one.
-    for (const Entry& entry : all_.low) {
+    visit(all_.low, [&](const Entry& entry) {
         out.push_back(on_tet(c, entry.tet, Operation::edge_removal, low, 2.0));
         out.push_back(on_tet(c, entry.tet, Operation::interface_flip, low, 2.0));
         out.push_back(on_tet(c, entry.tet, Operation::face_removal, low, 2.0));
@@ -332,7 +345,7 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
             request.vertices[0] = v;
             out.push_back(request);
         }
-    }
+    });
     // 3. Tets that are still degenerate: collapse without loss, by shape, within the bounds; split
     // long edges.
     for (const Entry& entry : all_.low) {
@@ -345,21 +358,22 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
         out.push_back(on_tet(c, entry.tet, Operation::relabel, degenerate, degenerate));
     }
     // 4. Sizes: short interface edges, long ones that are not flat, small tets.
-    for (const EdgeEntry& edge : all_.short_edges) {
+    visit(all_.short_edges, [&](const EdgeEntry& edge) {
         Request request = on_tet(c, edge.tet, Operation::edge_collapse, 2.0, degenerate);
         request.vertices = {edge.a, edge.b, mesh::none};
         request.mode = CollapseMode::bounded;
         out.push_back(request);
-    }
-    for (const EdgeEntry& edge : all_.long_edges) {
+    });
+    visit(all_.long_edges, [&](const EdgeEntry& edge) {
         c.ring(edge.tet, edge.a, edge.b, ring_);
-        if (!ring_.closed || edge_is_flat(c, ring_, edge.a, edge.b, round.flatness)) continue;
+        if (!ring_.closed || edge_is_flat(c, ring_, edge.a, edge.b, round.flatness)) return;
         Request request = on_tet(c, edge.tet, Operation::edge_split, 2.0, 2.0);
         request.vertices = {edge.a, edge.b, mesh::none};
         out.push_back(request);
-    }
-    for (const Entry& entry : all_.small)
+    });
+    visit(all_.small, [&](const Entry& entry) {
         out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, 2.0, low));
+    });
     // 5. Shapes and sizes of single edges, faces and tets, if their thresholds are set.
     shapes_.write(round, {static_cast<float>(degenerate), static_cast<float>(low)}, out);
 }

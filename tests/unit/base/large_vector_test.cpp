@@ -1,10 +1,12 @@
 // A vector in large pages.
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <numeric>
 #include <string>
+#include <vector>
 
 #ifdef __linux__
 #include <unistd.h>
@@ -40,6 +42,40 @@ TEST_CASE("memory that no machine has is refused, and not half given") {
     CHECK_THROWS_AS(LargePages<double>().allocate(most), std::bad_alloc);
     CHECK_THROWS_AS(allocate_large_pages(most - 1), std::bad_alloc);
 }
+
+#ifdef __linux__
+namespace {
+
+// Whether the system was asked for large pages at an address; see proc(5).
+bool prefers_large_pages(const void* address) {
+    std::ifstream maps("/proc/self/smaps");
+    const auto at = reinterpret_cast<std::uintptr_t>(address);
+    bool here = false;
+    for (std::string line; std::getline(maps, line);) {
+        std::uintptr_t begin = 0, end = 0;
+        if (std::sscanf(line.c_str(), "%zx-%zx ", &begin, &end) == 2)
+            here = begin <= at && at < end;
+        if (here && line.starts_with("VmFlags:")) return line.find(" hg") != std::string::npos;
+    }
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("large pages are asked for inside memory of any place and size, which keeps its data") {
+    const bool offered = std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled").good();
+    std::vector<char> list(3 * large_page, 'x');
+    for (const std::size_t skipped : {0, 1, 4096, 100'000}) {
+        CAPTURE(skipped);
+        prefer_large_pages(list.data() + skipped, list.size() - skipped);
+        CHECK(prefers_large_pages(list.data() + list.size() / 2) == offered);
+        CHECK(std::all_of(list.begin(), list.end(), [](char c) { return c == 'x'; }));
+    }
+    std::vector<char> small(large_page - 1, 'y');
+    prefer_large_pages(small.data(), small.size());
+    CHECK_FALSE(prefers_large_pages(small.data() + small.size() / 2));
+}
+#endif
 
 TEST_CASE("release gives back what an empty list of braces keeps") {
     LargeVector<int> list(1000, 7);

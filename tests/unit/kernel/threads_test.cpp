@@ -50,6 +50,8 @@ mesh::Complex plates() {
 
 // Shakes every vertex a little, each third one rests, and counts what the loop does.
 struct Shake {
+    enum class Note : std::uint8_t { rests, tried, moves };
+
     const mesh::Complex& complex;
     std::span<const VertexId> vertices;
     std::vector<std::uint8_t> attempts, settled;
@@ -58,8 +60,11 @@ struct Shake {
     std::atomic<int> collisions = 0;
 
     void prefetch(std::size_t, mesh::VertexId) const {}
-    bool ready(std::size_t i) const { return i % 3 != 0; }
-    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t) {
+    bool ready(std::size_t i, Note& note) const {
+        note = i % 3 != 0 ? Note::tried : Note::rests;
+        return i % 3 != 0;
+    }
+    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t, Note& note) {
         ++attempts[i];
         const auto& [star, neighbours] = scratch.star;
         for (const TetId t : star) {
@@ -72,10 +77,12 @@ struct Shake {
         scratch.place = p + 0.1 * (w - p);
         scratch.qualities.assign(star.size(), 0.5F);
         for (const TetId t : star) busy[t].fetch_sub(1);
+        if (i % 5 != 0) note = Note::moves;
         return i % 5 != 0;
     }
-    void settle(std::size_t i, std::uint32_t date) {
+    void settle(std::size_t i, std::uint32_t date, Note note) {
         CHECK(attempts[i] == (i % 3 != 0 ? 1 : 0));
+        CHECK(note == (i % 3 == 0 ? Note::rests : i % 5 == 0 ? Note::tried : Note::moves));
         ++settled[i];
         dates[i] = date;
     }
@@ -193,36 +200,40 @@ TEST_CASE("star loop: every vertex once, no tet held by two, the bits and dates 
 namespace {
 
 struct Throws {
+    enum class Note : std::uint8_t { nothing };
+
     std::size_t at;
     std::vector<int> settled;
     void prefetch(std::size_t, mesh::VertexId) const {}
-    bool ready(std::size_t i) const {
+    bool ready(std::size_t i, Note&) const {
         if (i == at) throw std::runtime_error("at its turn");
         return false;
     }
-    bool attempt(std::size_t, StarScratch&, std::uint32_t) const { return false; }
-    void settle(std::size_t i, std::uint32_t) { ++settled[i]; }
+    bool attempt(std::size_t, StarScratch&, std::uint32_t, Note&) const { return false; }
+    void settle(std::size_t i, std::uint32_t, Note) { ++settled[i]; }
 };
 
 // Whether a vertex is tried depends on its date, as with remembered refusals.
 struct AfterNeighbours {
+    enum class Note : std::uint8_t { nothing };
+
     const mesh::Complex& complex;
     std::span<const VertexId> vertices;
     std::vector<std::uint32_t> known;  // per vertex: the clock at its last turn
     std::vector<std::uint8_t> tried;
 
     void prefetch(std::size_t, mesh::VertexId) const {}
-    bool ready(std::size_t i) const {
+    bool ready(std::size_t i, Note&) const {
         return i % 7 == 0 || complex.vertex_date(vertices[i]) > known[vertices[i]];
     }
-    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t) {
+    bool attempt(std::size_t i, StarScratch& scratch, std::uint32_t, Note&) {
         ++tried[i];
         scratch.place = 0.9 * complex.position(vertices[i]) +
                         0.1 * complex.position(scratch.star.neighbours.front());
         scratch.qualities.assign(scratch.star.tets.size(), 0.5F);
         return i % 4 == 3;
     }
-    void settle(std::size_t i, std::uint32_t date) { known[vertices[i]] = date; }
+    void settle(std::size_t i, std::uint32_t date, Note) { known[vertices[i]] = date; }
 };
 
 std::pair<std::vector<std::uint8_t>, std::vector<std::uint32_t>> after_neighbours(Workers* workers,

@@ -20,6 +20,8 @@ inline constexpr std::size_t large_page = std::size_t{1} << 21U;
 /// free_large_pages() with the same number. Throws std::bad_alloc. [parallel]
 void* allocate_large_pages(std::size_t bytes);
 void free_large_pages(void* memory, std::size_t bytes) noexcept;
+/// A hint for memory that comes from elsewhere and has not been written to yet. [parallel]
+void prefer_large_pages(void* memory, std::size_t bytes) noexcept;
 
 /// An allocator for arrays that may become large.
 template <class T>
