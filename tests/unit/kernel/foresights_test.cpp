@@ -93,6 +93,7 @@ TEST_CASE("foresight: one thread foresees nothing, and nothing is certain of a r
     std::vector<repair::Request> requests;
     for (TetId t = 0; t < c.tet_slots(); ++t)
         requests.push_back(repair::on_tet(c, t, Operation::edge_collapse));
+    REQUIRE(requests.size() > 2048);  // so many are not judged together
     Foresights foresights(bench);
     foresights.start(requests, nullptr);
     for (std::size_t i = 0; i < requests.size(); ++i) REQUIRE(foresights.of(i).edges == 0);
@@ -102,6 +103,20 @@ TEST_CASE("foresight: one thread foresees nothing, and nothing is certain of a r
     for (std::size_t i = 0; i < requests.size(); ++i)
         foreseen += foresights.of(i).edges > 0 ? 1 : 0;
     CHECK(foreseen > requests.size() / 10);
+    // Requests between them of which nothing can be certain change nothing.
+    std::vector<repair::Request> mixed;
+    for (const repair::Request& request : requests) {
+        mixed.push_back(repair::on_tet(c, request.tet, Operation::interface_flip));
+        mixed.push_back(request);
+    }
+    foresights.start(mixed, &workers);
+    std::size_t again = 0;
+    for (std::size_t i = 0; i < mixed.size(); ++i) {
+        const std::size_t edges = foresights.of(i).edges;
+        if (i % 2 == 0) REQUIRE(edges == 0);
+        again += edges > 0 ? 1 : 0;
+    }
+    CHECK(again == foreseen);
     for (repair::Request& request : requests)
         request.vertices = {c.tet(request.tet).v[0], c.tet(request.tet).v[1], mesh::none};
     foresights.start(requests, &workers);
