@@ -205,9 +205,10 @@ def threads_table(runs):
     for count in runs[0]:
         each = [run[count] for run in runs]
         rows.append([str(count), f"{each[0]['n']:,.0f}", spread([row["wall_ms"] for row in each]), spread([row["step_ms"] for row in each]),
-                     spread([run[1]["wall_ms"] / run[count]["wall_ms"] for run in runs])])
+                     spread([run[1]["wall_ms"] / run[count]["wall_ms"] for run in runs]),
+                     spread([ns for row in each for ns in row.get("exchange_ns", [])]) if count > 1 else ""])
     digests = {row["digest"] for run in runs for row in run.values()}
-    return markdown(["threads", "N", "wall ms per step", "CPU ms per step", "faster, times"], rows) + \
+    return markdown(["threads", "N", "wall ms per step", "CPU ms per step", "faster, times", "exchange, ns"], rows) + \
         ("\n\nThe complex at the end has the same bytes in all of these runs.\n" if len(digests) == 1
          else f"\n\nDIFFERENT RESULTS: {len(digests)} different complexes.\n")
 

@@ -19,6 +19,7 @@
 #include <dsc/mesh/validate.hpp>
 #include <dsc/run/sha256.hpp>
 
+#include "exchange.hpp"
 #include "pipeline.hpp"
 #include "program.hpp"
 #include "resources.hpp"
@@ -157,6 +158,7 @@ Json measure(const Arguments& arguments, double n) {
         std::fill(out.begin(), out.end(), way);
     };
     body.step(onward);
+    const double exchange_before = arguments.threads > 1 ? exchange_ns() : 0.0;
     const auto start = std::chrono::steady_clock::now();
     double vertices = 0.0, tets = 0.0, rounds = 0.0, dropped = 0.0;
     Phases sum;
@@ -187,6 +189,7 @@ Json measure(const Arguments& arguments, double n) {
                 {"kb_per_vertex", 1e3 * (rss_mb() - rss_before) / vertices},
                 {"peak_rss_mb", peak_rss_mb()},
                 {"digest", digest(body.deformer().complex().to_mesh())}};
+    if (arguments.threads > 1) row["exchange_ns"] = {exchange_before, exchange_ns()};
     if (arguments.validate) row["valid"] = mesh::validate(body.deformer().complex()).valid();
     return row;
 }
@@ -266,6 +269,13 @@ int work(const Arguments& arguments) {
                     value("rounds"), value("rss_mb"), value("kb_per_vertex"), value("peak_rss_mb"),
                     row.value("valid", true) ? "" : " INVALID");
         std::fflush(stdout);
+        if (row.contains("exchange_ns")) {
+            std::fprintf(stderr,
+                         "%9.0f two threads exchanged a line of the caches in %.0f ns before the "
+                         "steps, %.0f ns after them\n",
+                         value("n"), row["exchange_ns"][0].get<double>(),
+                         row["exchange_ns"][1].get<double>());
+        }
         failed = failed || !row.value("valid", true);
         n.push_back(value("n"));
         seconds.push_back(value("step_ms"));

@@ -29,10 +29,8 @@ std::size_t size_class(std::size_t size) {
                                        static_cast<std::size_t>(std::bit_width(largest_small)) - 1;
 }
 
-}  // namespace
-
-// A free block begins with the address of the next one of its size.
-class StarCache::Pool {
+// Blocks of one group of threads. A free block begins with the address of the next one of its size.
+class alignas(64) Shelf {
 public:
     std::uint32_t* exchange(std::uint32_t* old, std::size_t old_size, std::size_t size) {
         const std::lock_guard lock(mutex_);
@@ -62,6 +60,28 @@ private:
     std::size_t left_ = 0;           // ids from there on
     std::size_t total_ = 0;          // ids in all chunks
     std::array<std::uint32_t*, small_sizes + 16> free_{};
+};
+
+constexpr std::size_t shelves = 8;
+
+std::size_t shelf_of_thread() {
+    static std::atomic<std::size_t> threads{0};
+    thread_local const std::size_t own = threads.fetch_add(1, std::memory_order_relaxed) % shelves;
+    return own;
+}
+
+}  // namespace
+
+// Several shelves, so that threads rarely wait for each other. A block may go back to another shelf
+// than that which it came from.
+class StarCache::Pool {
+public:
+    std::uint32_t* exchange(std::uint32_t* old, std::size_t old_size, std::size_t size) {
+        return shelves_[shelf_of_thread()].exchange(old, old_size, size);
+    }
+
+private:
+    std::array<Shelf, shelves> shelves_;
 };
 
 StarCache::StarCache() : pool_(std::make_unique<Pool>()) {}
