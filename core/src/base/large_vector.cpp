@@ -13,6 +13,11 @@ std::size_t whole_pages(std::size_t bytes) {
     return (bytes + large_page - 1) / large_page * large_page;
 }
 
+// Bytes from an address up to the next whole page.
+std::size_t bytes_to_page(const void* address) {
+    return (large_page - reinterpret_cast<std::uintptr_t>(address) % large_page) % large_page;
+}
+
 }  // namespace
 
 // The memory comes from the system and not from the heap. Aligned blocks would leave gaps in the
@@ -25,8 +30,7 @@ void* allocate_large_pages(std::size_t bytes) {
         mmap(nullptr, more, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (mapped == MAP_FAILED) throw std::bad_alloc();
     auto* const start = static_cast<std::byte*>(mapped);
-    const std::size_t before =
-        (large_page - reinterpret_cast<std::uintptr_t>(mapped) % large_page) % large_page;
+    const std::size_t before = bytes_to_page(mapped);
     if (before > 0) munmap(start, before);
     if (before < large_page) munmap(start + before + whole, large_page - before);
     // It is a hint: a system without large pages refuses it, and everything works all the same.
@@ -35,8 +39,7 @@ void* allocate_large_pages(std::size_t bytes) {
 }
 
 void prefer_large_pages(void* memory, std::size_t bytes) noexcept {
-    const std::size_t before =
-        (large_page - reinterpret_cast<std::uintptr_t>(memory) % large_page) % large_page;
+    const std::size_t before = bytes_to_page(memory);
     if (bytes < before + large_page) return;
     const std::size_t whole = (bytes - before) / large_page * large_page;
     static_cast<void>(madvise(static_cast<std::byte*>(memory) + before, whole, MADV_HUGEPAGE));

@@ -138,11 +138,10 @@ struct Destinations::Pass {
     const Limits& limits;
     const PassOptions& options;
 
-    Entry& at(std::size_t i) const { return all.entries_[all.entry_of_vertex_[all.active_[i]]]; }
+    Entry& of(VertexId v) const { return all.entries_[all.entry_of_vertex_[v]]; }
+    Entry& at(std::size_t i) const { return of(all.active_[i]); }
 
-    void prefetch(std::size_t, VertexId v) const {
-        prefetch_line(&all.entries_[all.entry_of_vertex_[v]]);
-    }
+    void prefetch(std::size_t, VertexId v) const { prefetch_line(&of(v)); }
 
     bool ready(std::size_t i, Note& fate) const {
         const VertexId v = all.active_[i];
@@ -173,7 +172,6 @@ struct Destinations::Pass {
     }
 
     void settle(std::size_t i, std::uint32_t date, Note fate) const {
-        all.fates_[i] = fate;
         if (fate == asleep) return;
         ++all.tried_;
         if (fate == moved) return;  // its entry stays as it is
@@ -207,18 +205,16 @@ void Destinations::drop_dead_and_double() {
 
 double Destinations::pass(const Limits& limits, const PassOptions& options) {
     drop_dead_and_double();
-    fates_.resize(active_.size());
     Pass action{*this, limits, options};
     loop_.run(active_, options.workers, action);
     blocked_.clear();
     double left = 0.0;
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < active_.size(); ++i) {
-        if (fates_[i] == Pass::arrived) continue;
-        const VertexId v = active_[i];
-        const Entry& entry = *entry_of(v);
-        if (entry.blocked_at != 0) blocked_.push_back(v);
-        left += (entry.place - complex_.position(v)).norm();
+    for (const VertexId v : active_) {
+        const Entry* const entry = entry_of(v);
+        if (entry == nullptr) continue;  // it has arrived
+        if (entry->blocked_at != 0) blocked_.push_back(v);
+        left += (entry->place - complex_.position(v)).norm();
         active_[kept++] = v;
     }
     active_.resize(kept);

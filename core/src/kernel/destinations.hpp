@@ -101,7 +101,6 @@ private:
     std::uint32_t clean_at_ = never;
     std::vector<VertexId> blocked_;
     std::vector<VertexId> near_collapses_;
-    LargeVector<std::uint8_t> fates_;
     std::vector<std::uint64_t> sent_before_;  // per block of a step's vertices: those before it
     std::uint32_t pass_ = 0;
     std::size_t tried_ = 0;

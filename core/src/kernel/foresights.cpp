@@ -59,7 +59,7 @@ void Foresights::prefetch_stars(std::size_t i) const {
         for (const VertexId v : judged_[i + far].vertices) c.prefetch_vertex(v);
     }
     ends(i + far, [&c](VertexId v) { c.prefetch_star_entry(v); });
-    // An earlier request may have removed a vertex.
+    // Only a vertex that no earlier request has removed has a star.
     ends(i + near, [&c](VertexId v) {
         if (c.vertex_alive(v)) c.prefetch_star(v);
     });

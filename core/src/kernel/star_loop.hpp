@@ -203,15 +203,11 @@ private:
         }
     }
 
-    // Asks the memory for the dates that is_free() will read.
+    // Asks the memory for the dates of a vertex that is not known to be inner.
     void prefetch_dates(Block& block) {
         if (!complex_.exceeds_caches() || block.next + near >= block.items.size()) return;
         const mesh::VertexId v = block.items[block.next + near].vertex;
-        if (is_inner(v)) return;
-        prefetch_line(&dates_[v]);
-        if (!complex_.knows_star(v)) return;
-        for (const mesh::VertexId w : complex_.cached_star(v, block.scratch.walk).neighbours)
-            prefetch_line(&dates_[w]);
+        if (!is_inner(v)) prefetch_line(&dates_[v]);
     }
 
     template <class Action>

@@ -18,7 +18,7 @@ void Edit::clear() {
 
 namespace {
 
-// A key contains the three vertices of a face, in any order.
+// The three vertices of a face. Two keys with the same vertices in another order are equal.
 using FaceKey = std::array<VertexId, 3>;
 
 // Whether two faces have the same vertices, without branches, which could not be predicted.

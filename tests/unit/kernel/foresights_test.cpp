@@ -93,7 +93,7 @@ TEST_CASE("foresight: one thread foresees nothing, and nothing is certain of a r
     std::vector<repair::Request> requests;
     for (TetId t = 0; t < c.tet_slots(); ++t)
         requests.push_back(repair::on_tet(c, t, Operation::edge_collapse));
-    REQUIRE(requests.size() > 2048);  // so many are not judged together
+    REQUIRE(requests.size() > 2048);  // at most 1024 are judged at a time
     Foresights foresights(bench);
     foresights.start(requests, nullptr);
     for (std::size_t i = 0; i < requests.size(); ++i) REQUIRE(foresights.of(i).edges == 0);
