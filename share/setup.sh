@@ -22,7 +22,7 @@ build_packages=(
 )
 test_packages=(clang-format-14 libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
 package_packages=(dpkg-dev file)
-full_packages=(dpkg-dev file valgrind chromium chromium-driver libbenchmark-dev munge parallel python3-meshio slurm-wlm snakemake)
+full_packages=(dpkg-dev file valgrind chromium chromium-driver libbenchmark-dev munge parallel python3-meshio python3-scipy slurm-wlm snakemake)
 
 say() { printf '%s\n' "$*" >&2; }
 
