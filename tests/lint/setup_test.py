@@ -184,7 +184,7 @@ class Setup(unittest.TestCase):
         self.assertEqual(self.setup("test", "--full").returncode, 0)
         self.assertTrue(any("--preset dev" in call for call in self.calls("cmake")))
         installed = set((self.fake / "installed").read_text().split())
-        self.assertLessEqual({"valgrind", "chromium", "chromium-driver", "python3-meshio", "snakemake", "slurm-wlm"}, installed)
+        self.assertLessEqual({"valgrind", "chromium", "chromium-driver", "python3-meshio", "python3-scipy", "snakemake", "slurm-wlm"}, installed)
 
     def test_the_gate_is_run_by_full_only_and_its_absence_is_told(self):
         result = self.setup("test")

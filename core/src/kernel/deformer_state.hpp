@@ -47,6 +47,7 @@ struct Deformer::State {
     bool alive(VertexId v) const { return v < complex.vertex_slots() && complex.vertex_alive(v); }
 
     // ---- the parts of a step (step.cpp)
+    void renew_dates();
     class Stall;
     struct Smoothing;
     void begin_step(std::span<const VertexId> vertices, std::span<const Vec3> displacements,

@@ -25,6 +25,8 @@ public:
     /// What is certain of request i now. Call it in ascending order, before the request is
     /// executed. [step]
     Foresight of(std::size_t i);
+    /// Forgets all that depends on dates. Between two lists of requests. [step]
+    void forget_dates() { judges_.clear(); }
 
 private:
     static constexpr std::size_t most = 1024, block = 32;  // requests that are judged together, and

@@ -9,6 +9,7 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
+#include <dsc/mesh/date_ranks.hpp>
 
 namespace dsc::kernel {
 namespace {
@@ -110,6 +111,16 @@ void RepairQueues::check(std::uint32_t previous_clock) {
     }
     // A tet in the list is tried again; its failure counts only if it fails again.
     for (const TetId t : dirty_) memory_[t].tet = mesh::none;
+}
+
+void RepairQueues::renew(const mesh::DateRanks& ranks) {
+    ranks.replace(last_clock_);
+    for (std::vector<Failure>* list : {&failed_, &failed_now_, &memory_}) {
+        for (Failure& failure : *list) {
+            ranks.replace(failure.birth_date);
+            ranks.replace(failure.date);
+        }
+    }
 }
 
 void RepairQueues::save(StateWriter& out) const {

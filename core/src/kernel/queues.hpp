@@ -45,6 +45,9 @@ public:
 
     std::size_t failures() const { return failed_.size(); }
 
+    /// The dates of the complex have been replaced. Between rounds. [step]
+    void renew(const mesh::DateRanks& ranks);
+
     /// Between rounds. The audit starts again with an empty memory. [step]
     void save(StateWriter& out) const;
     void load(StateReader& in);

@@ -75,6 +75,9 @@ public:
         settle(action, *workers);
     }
 
+    /// Forgets all that depends on dates. Between loops. [step]
+    void forget_dates() { dates_.clear(); }
+
 private:
     using Item = StarItem;
     using Block = StarBlock;

@@ -3,15 +3,29 @@
 #include <atomic>
 #include <utility>
 
+#include <dsc/mesh/date_ranks.hpp>
+
 #include "kernel/deformer_state.hpp"
 
 namespace dsc::kernel {
+// Replaces the dates by their ranks, if necessary. The clock advances by one at each vertex that is
+// tried: a surface of 50,000 vertices reaches this limit after some 5,000 steps.
+void Deformer::State::renew_dates() {
+    constexpr std::uint32_t limit = 1U << 31U;
+    if (complex.clock() < limit) return;
+    queues.renew(complex.renew_dates());
+    bench.forget_dates();
+    foresights.forget_dates();
+    star_loop.forget_dates();
+}
+
 void Deformer::State::begin_step(std::span<const VertexId> vertices,
                                  std::span<const Vec3> displacements, const RepairPolicy& policy,
                                  StepReport& report) {
     apply_limits(policy.flatness, policy.creases);
     bench.limits.set_floor(policy.quality_floor.value_or(options.quality_floor));
     ++step;
+    renew_dates();
     destinations.clear();
     // For the topology stage.
     complex.start_watch();

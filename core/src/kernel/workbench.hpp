@@ -180,6 +180,11 @@ public:
     void prefetch_memory(VertexId v) const { prefetch_line(&memory_[v]); }
     /// Forgets all refusals, because the limits have changed.
     void forget_refusals() { memory_.clear(); }
+    /// Forgets all that depends on dates.
+    void forget_dates() {
+        memory_.clear();
+        flat_memory_.clear();
+    }
 
     /// Whether the interface faces round v are flat to each other (signed normals). Recent answers
     /// are remembered until the star of v changes.

@@ -46,8 +46,9 @@ void faces_led_by(const mesh::Complex& c, mesh::VertexId v, mesh::StarWalk& walk
 }  // namespace
 
 bool ViewMemory::known(const mesh::Complex& complex, mesh::VertexId v, std::uint32_t i) const {
-    // Another vertex may use the slot now.
-    return i < births_.size() && births_[i] == complex.birth(v) && complex.shape_date(v) <= clock_;
+    // Another vertex may use the slot now. The clock goes back if the dates are renewed.
+    return i < births_.size() && births_[i] == complex.birth(v) &&
+           complex.shape_date(v) <= clock_ && clock_ <= complex.clock();
 }
 
 std::span<const ViewMemory::Face> ViewMemory::faces_led_by(const mesh::Complex& complex,

@@ -52,6 +52,8 @@ struct ChangeLists {
     LargeVector<TetId> changed, watched;
 };
 
+class DateRanks;
+
 /// See the head of the file.
 class Complex {
 public:
@@ -87,7 +89,8 @@ public:
     /// Value of the change clock when a tet of the vertex' star was last made, removed or
     /// relabelled; moves leave it.
     std::uint32_t shape_date(VertexId v) const { return shapes_[v].date; }
-    /// The change clock. It advances with each committed change.
+    /// The change clock. It advances with each committed change. A Deformer calls renew_dates()
+    /// between steps, after some billion changes.
     std::uint32_t clock() const { return clock_; }
     /// Value of the change clock when a shape_date() last advanced.
     std::uint32_t shape_clock() const { return shape_clock_; }
@@ -244,6 +247,9 @@ public:
         return std::span(lists_.watched).last(count);
     }
     void advance_clock(std::uint32_t time) { clock_ = time; }
+    /// Replaces all dates and the clock by their ranks, so that the clock can go on. It is smaller
+    /// afterwards; whoever remembers dates applies the ranks to them, or forgets them. [step]
+    DateRanks renew_dates();
     /// Gives tets another label. [step]
     void relabel(std::span<const TetId> tets, Label label);
 
