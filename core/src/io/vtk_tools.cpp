@@ -1,6 +1,7 @@
-// Arrays and messages of VTK.
+// Arrays, threads and messages of VTK.
 #include "io/vtk_tools.hpp"
 
+#include <SMP/Common/vtkSMPToolsAPI.h>  // because vtkSMPTools.h of VTK 9.1 is not valid C++20
 #include <fmt/core.h>
 #include <vtkDoubleArray.h>
 #include <vtkObjectFactory.h>
@@ -10,6 +11,19 @@
 #include "io/vtu_check.hpp"
 
 namespace dsc::io {
+
+namespace {
+
+vtk::detail::smp::vtkSMPToolsAPI& loops() {
+    return vtk::detail::smp::vtkSMPToolsAPI::GetInstance();
+}
+
+}  // namespace
+
+OneThreadScope::OneThreadScope() : before_(loops().GetBackend()) {
+    loops().SetBackend("Sequential");
+}
+OneThreadScope::~OneThreadScope() { loops().SetBackend(before_.c_str()); }
 
 /// Receives the messages that VTK would print.
 class VtkMessages : public vtkOutputWindow {

@@ -1,5 +1,5 @@
 #pragma once
-// Common parts of the VTK formats: conversion of arrays, and capture of VTK's messages.
+// Common parts of the VTK formats: conversion of arrays, threads, and capture of VTK's messages.
 
 #include <algorithm>
 #include <string>
@@ -23,6 +23,19 @@
 #include <dsc/io/data_array.hpp>
 
 namespace dsc::io {
+
+/// During its lifetime, VTK works on the thread that calls it. Otherwise it starts a thread per
+/// core, whatever number of threads the user has chosen.
+class OneThreadScope {
+public:
+    OneThreadScope();
+    ~OneThreadScope();
+    OneThreadScope(const OneThreadScope&) = delete;
+    OneThreadScope& operator=(const OneThreadScope&) = delete;
+
+private:
+    std::string before_;  // VTK's name of the way in which loops run
+};
 
 class VtkMessages;
 

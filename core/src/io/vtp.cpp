@@ -99,6 +99,7 @@ void read_vectors(vtkFieldData& from, std::size_t elements, std::vector<VectorAr
 
 surface::TriangleMesh decode_checked(const std::string& content, std::string_view file,
                                      SurfaceData* data) {
+    const OneThreadScope one_thread;
     CaptureScope capture;
     vtkNew<vtkXMLPolyDataReader> reader;
     read_content(*reader, content, file, capture);
@@ -118,6 +119,7 @@ surface::TriangleMesh decode_checked(const std::string& content, std::string_vie
 
 std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& data,
                        std::string_view file) {
+    const OneThreadScope one_thread;
     vtkNew<vtkPolyData> polygons;
     polygons->SetPoints(make_points(mesh.points));
     polygons->SetPolys(make_cells(mesh.faces));

@@ -119,6 +119,7 @@ void read_labels(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_vie
 
 mesh::TetMesh decode_checked(const std::string& content, std::string_view file,
                              std::vector<DataArray>* points) {
+    const OneThreadScope one_thread;
     CaptureScope capture;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     read_content(*reader, content, file, capture);
@@ -147,6 +148,7 @@ mesh::TetMesh decode_vtu(const std::string& content, std::string_view file,
 }
 
 std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::string_view file) {
+    const OneThreadScope one_thread;
     const auto grid = make_grid(mesh);
     grid->GetCellData()->AddArray(make_array<vtkIntArray>("label", mesh.labels));
     grid->GetCellData()->AddArray(make_array<vtkDoubleArray>("quality", qualities(mesh)));
