@@ -11,7 +11,6 @@
 #include "io/vtu_check.hpp"
 
 namespace dsc::io {
-
 namespace {
 
 vtk::detail::smp::vtkSMPToolsAPI& loops() {

@@ -178,11 +178,11 @@ public:
     }
     /// Asks the memory for what known_refusal() will read; v must be in the room. [parallel]
     void prefetch_memory(VertexId v) const { prefetch_line(&memory_[v]); }
-    /// Forgets all refusals, because the limits have changed.
+    /// Forgets all refusals; also necessary if the limits have changed.
     void forget_refusals() { memory_.clear(); }
     /// Forgets all that depends on dates.
     void forget_dates() {
-        memory_.clear();
+        forget_refusals();
         flat_memory_.clear();
     }
 

@@ -18,7 +18,7 @@ void Edit::clear() {
 
 namespace {
 
-// The three vertices of a face. Two keys with the same vertices in another order are equal.
+// The three vertices of a face, in any order: two keys are equal if they have the same vertices.
 using FaceKey = std::array<VertexId, 3>;
 
 // Whether two faces have the same vertices, without branches, which could not be predicted.

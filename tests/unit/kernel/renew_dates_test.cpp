@@ -1,4 +1,4 @@
-// New dates in the middle of a run: everything goes on as if the dates had stayed.
+// A run whose dates are renewed on the way has the same result as a run whose dates are not.
 #include <algorithm>
 #include <array>
 #include <cstdint>
